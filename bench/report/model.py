@@ -1,0 +1,145 @@
+"""What a report shows, as plain immutable values. Errors are of linear radiance, times in seconds."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """A value with its interval. None: not known (a value), not to be had (a bound)."""
+
+    value: float | None
+    lo: float | None = None
+    hi: float | None = None
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A PNG file, whole, and its size in pixels."""
+
+    data: bytes
+    width: int
+    height: int
+
+
+@dataclass(frozen=True)
+class Point:
+    """One sampler in one scene at one number of samples per pixel; seconds are of rendering alone."""
+
+    spp: int
+    replicates: int
+    rmse: Estimate
+    relmse: Estimate
+    cpu_seconds: float
+    wall_seconds: float
+    sampler_share: float | None
+    below_floor: bool
+
+
+@dataclass(frozen=True)
+class Slope:
+    """Exponent p of RMSE ~ spp^p, fitted over [spp_from, spp_to]."""
+
+    estimate: Estimate
+    spp_from: int
+    spp_to: int
+
+
+@dataclass(frozen=True)
+class TimeTo:
+    """Seconds until the relative MSE fell to `relmse`; no seconds when it was not reached."""
+
+    relmse: float
+    seconds: Estimate
+    how: str
+    reached_relmse: float | None
+
+
+@dataclass(frozen=True)
+class Gain:
+    """MSE of random over MSE of this sampler, at the same spp."""
+
+    ratio: Estimate
+    spp: int
+
+
+@dataclass(frozen=True)
+class SamplerResult:
+    """Everything about one sampler in one scene; points ascend in spp."""
+
+    sampler: str
+    label: str
+    randomized: bool
+    points: tuple[Point, ...]
+    slope: Slope | None
+    time_to: tuple[TimeTo, ...]
+    gain: Gain | None
+    crop: Picture | None
+    crop_spp: int | None
+    error_map: Picture | None
+
+    @property
+    def is_baseline(self) -> bool:
+        """Whether this is the sampler that the gains are measured against."""
+        return self.sampler.split(":")[0] == "random"
+
+
+@dataclass(frozen=True)
+class Reference:
+    """The image that errors are measured against, and what is known of its own error."""
+
+    samplers: tuple[str, ...]
+    spp_total: int
+    replicates: int
+    se_rmse: float | None
+    halves_z: float | None
+    file: str | None
+
+
+@dataclass(frozen=True)
+class Scene:
+    """One scene; film is (width, height) and crop (x, y, width, height), in pixels."""
+
+    name: str
+    purpose: str
+    expect: str
+    film: tuple[int, int]
+    crop: tuple[int, int, int, int]
+    max_depth: int
+    rr_depth: int
+    effects: tuple[str, ...]
+    dimensions: int
+    kernel: str
+    reference: Reference
+    picture: Picture | None
+    reference_crop: Picture | None
+    samplers: tuple[SamplerResult, ...]
+
+
+@dataclass(frozen=True)
+class Experiment:
+    """What was run, on what, and the command that repeats it."""
+
+    name: str
+    title: str
+    command: str
+    commit: str
+    machine: str
+    cores: int
+    isa: str
+    compiler: str
+    threads: int
+    version: str
+    confidence: float
+    note: str
+
+
+@dataclass(frozen=True)
+class Summary:
+    """A whole results directory."""
+
+    directory: Path
+    experiment: Experiment
+    scenes: tuple[Scene, ...]
+    invalid_samples: int
+    seconds_total: float

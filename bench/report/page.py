@@ -1,0 +1,75 @@
+"""Lays out a summary as one HTML page that needs nothing else: no network, no files beside it."""
+
+from pathlib import Path
+
+from jinja2 import Environment, FileSystemLoader, StrictUndefined
+
+from . import formats, tables
+from .figures import error_vs_seconds, error_vs_spp
+from .model import Picture, Scene, Summary
+from .overview import overview_figure
+from .palette import Style, assign_styles, swatch
+from .pictures import data_uri, enlargement
+
+_HERE = Path(__file__).parent
+
+
+def render_page(summary: Summary) -> str:
+    """The text of report.html. The same summary gives the same bytes."""
+    columns = tables.sampler_columns(summary)
+    styles = assign_styles(columns)
+    rows = [tables.overview_row(scene) for scene in summary.scenes]
+    context = {
+        "summary": summary, "experiment": summary.experiment,
+        "confidence": f"{summary.experiment.confidence * 100:g}\u2009%",
+        "columns": columns, "tally": tables.tally(rows), "rows": list(zip(summary.scenes, rows)),
+        "overview": overview_figure(summary, styles, "overview"),
+        "scenes": [_scene_context(scene, styles, f"scene{i}") for i, scene in enumerate(summary.scenes, 1)],
+        "has_targets": any(tables.targets(scene) for scene in summary.scenes),
+        "has_rows_file": (summary.directory / "results.jsonl").is_file(),
+    }
+    return _environment(styles).get_template("template.html.j2").render(context)
+
+
+def _scene_context(scene: Scene, styles: dict[str, Style], key: str) -> dict:
+    crops = [picture for picture in (scene.reference_crop, *(s.crop for s in scene.samplers)) if picture]
+    widest = max((picture.width for picture in crops), default=0)
+    return {
+        "scene": scene, "key": key,
+        "spp_figure": error_vs_spp(scene, styles, f"{key}-spp"),
+        "seconds_figure": error_vs_seconds(scene, styles, f"{key}-seconds"),
+        "targets": tables.targets(scene), "remarks": tables.remarks(scene),
+        "crops": crops, "enlargement": enlargement(widest, len(crops)) if crops else 1,
+        "has_points_below_floor": any(p.below_floor for s in scene.samplers for p in s.points),
+        "error_maps": any(s.error_map for s in scene.samplers),
+        "crop_frame": _crop_frame(scene),
+    }
+
+
+def _crop_frame(scene: Scene) -> tuple[float, float, float, float] | None:
+    """Where the crop lies in the scene's picture, as per cent of left, top, width and height.
+
+    None when the picture cannot be of the whole film (its shape differs), or the crop is all of it.
+    """
+    if scene.picture is None:
+        return None
+    (film_w, film_h), (x, y, w, h) = scene.film, scene.crop
+    same_shape = abs(scene.picture.width * film_h - scene.picture.height * film_w) <= max(film_w, film_h)
+    inside = x + w <= film_w and y + h <= film_h
+    if not same_shape or not inside or (w, h) == (film_w, film_h):
+        return None
+    return tuple(round(100 * part / whole, 3) for part, whole in ((x, film_w), (y, film_h), (w, film_w), (h, film_h)))
+
+
+def _environment(styles: dict[str, Style]) -> Environment:
+    environment = Environment(loader=FileSystemLoader(_HERE), autoescape=True, undefined=StrictUndefined,
+                              trim_blocks=True, lstrip_blocks=True, keep_trailing_newline=True)
+    environment.filters.update(
+        sig=formats.significant, fixed=formats.fixed, count=formats.count, percent=formats.percent,
+        short=formats.short, duration=formats.duration,
+        interval=formats.interval, slope_interval=lambda estimate: formats.interval(estimate, formats.fixed),
+        uri=lambda picture: data_uri(picture) if isinstance(picture, Picture) else "")
+    environment.globals.update(
+        key_of=lambda sampler: swatch(styles[sampler.sampler]),
+        time_to=tables.time_to, common_target=tables.common_target, fastest=tables.fastest, gain_spp=tables.gain_spp)
+    return environment

@@ -1,0 +1,134 @@
+"""What the tables say: verdicts from given intervals, and cells in the order in which they are shown.
+
+Nothing is estimated here; an interval that includes 1 was computed by the program.
+"""
+
+from dataclasses import dataclass
+
+from .model import Gain, SamplerResult, Scene, Summary, TimeTo
+
+
+@dataclass(frozen=True)
+class OverviewCell:
+    """One sampler in one scene.
+
+    verdict  baseline, better, worse, unclear (the interval includes 1), no interval, no gain
+    mark     best: the largest of the better ones, clear of the others; joint best: where others overlap it
+    """
+
+    result: SamplerResult
+    verdict: str
+    mark: str = ""
+
+
+def verdict(result: SamplerResult) -> str:
+    """How a sampler's MSE compares with random's, as far as its interval can tell."""
+    if result.is_baseline:
+        return "baseline"
+    if result.gain is None or result.gain.ratio.value is None:
+        return "no gain"
+    lo, hi = result.gain.ratio.lo, result.gain.ratio.hi
+    if lo is None and hi is None:
+        return "no interval"
+    if lo is not None and lo > 1:
+        return "better"
+    return "worse" if hi is not None and hi < 1 else "unclear"
+
+
+def overview_row(scene: Scene) -> dict[str, OverviewCell]:
+    """The cells of a scene by sampler name, the best distinguishable one and those level with it marked."""
+    verdicts = {result.sampler: verdict(result) for result in scene.samplers}
+    better = [result for result in scene.samplers if verdicts[result.sampler] == "better"]
+    best = max(better, key=lambda result: result.gain.ratio.value, default=None)
+    # Overlap is a cautious test: samplers whose intervals overlap a little may differ all the same.
+    level = [r for r in better if r.gain.ratio.hi is None or r.gain.ratio.hi >= best.gain.ratio.lo]
+    mark = "best" if len(level) == 1 else "joint best"
+    return {result.sampler: OverviewCell(result, verdicts[result.sampler], mark if result in level else "")
+            for result in scene.samplers}
+
+
+def tally(rows: list[dict[str, OverviewCell]]) -> dict[str, int]:
+    """How many comparisons with random had each verdict; baselines and absent gains are not comparisons."""
+    counts = {"better": 0, "unclear": 0, "worse": 0, "no interval": 0}
+    for row in rows:
+        for cell in row.values():
+            if cell.verdict in counts:
+                counts[cell.verdict] += 1
+    return counts
+
+
+def sampler_columns(summary: Summary) -> list[SamplerResult]:
+    """The samplers of all scenes, each once, in the order of first appearance."""
+    columns: dict[str, SamplerResult] = {}
+    for scene in summary.scenes:
+        for result in scene.samplers:
+            columns.setdefault(result.sampler, result)
+    return list(columns.values())
+
+
+def gain_spp(scene: Scene) -> int | None:
+    """The spp of a scene's gains when it is one and the same, else None."""
+    spps = {result.gain.spp for result in scene.samplers if isinstance(result.gain, Gain)}
+    return spps.pop() if len(spps) == 1 else None
+
+
+def targets(scene: Scene) -> list[float]:
+    """The relative MSEs of a scene's time-to-error table, easiest first."""
+    return sorted({entry.relmse for result in scene.samplers for entry in result.time_to}, reverse=True)
+
+
+def time_to(result: SamplerResult, target: float) -> TimeTo | None:
+    """A sampler's entry for a target, None when it has none."""
+    return next((entry for entry in result.time_to if entry.relmse == target), None)
+
+
+def common_target(scene: Scene) -> float | None:
+    """The hardest target that every sampler reached, or failing that the most did; None without targets."""
+    def reached(target: float) -> int:
+        entries = (time_to(result, target) for result in scene.samplers)
+        return sum(entry is not None and entry.how != "not reached" for entry in entries)
+
+    return max(targets(scene), key=lambda target: (reached(target), -target), default=None)
+
+
+def fastest(scene: Scene, target: float) -> dict[str, str]:
+    """Marks, by sampler name, of the shortest time to a target and of those whose interval overlaps its own.
+
+    A time without an interval is not ranked. No marks where all overlap: there is nothing to point out.
+    """
+    entries = {result.sampler: time_to(result, target) for result in scene.samplers}
+    ranked = {name: entry.seconds for name, entry in entries.items()
+              if entry and None not in (entry.seconds.value, entry.seconds.lo, entry.seconds.hi)}
+    best = min(ranked.values(), key=lambda seconds: seconds.value, default=None)
+    level = [name for name, seconds in ranked.items() if seconds.lo <= best.hi]
+    if len(level) == len(ranked):
+        return {}
+    return {name: "best" if len(level) == 1 else "joint best" for name in level}
+
+
+def remarks(scene: Scene) -> list[str]:
+    """What a reader of a scene's figures and tables must know about points that are missing or marked."""
+    lines = []
+    for result in scene.samplers:
+        missing = [str(point.spp) for point in result.points if not point.rmse.value]
+        if missing:
+            lines.append(f"{result.label}: no RMSE at {_spp(missing)}: the corrected MSE was not positive there "
+                         "(below the reference's noise), so the figures leave the point out.")
+        below = [str(point.spp) for point in result.points if point.below_floor and point.rmse.value]
+        if below:
+            lines.append(f"{result.label}: hollow markers, at {_spp(below)}: the error is below the reference's "
+                         "own noise floor and is not to be relied on.")
+        if not result.randomized:
+            lines.append(f"{result.label}: a fixed point set, not randomised: it has no replicates, hence no "
+                         "intervals and no rank.")
+        if result.slope is None and result.points:
+            lines.append(f"{result.label}: no slope was fitted; thin lines join its points.")
+    z = scene.reference.halves_z
+    if z is not None and abs(z) > 3:
+        lines.append("The two halves of the reference differ by more than 3 standard errors: "
+                     "treat this scene's errors with suspicion.")
+    return lines
+
+
+def _spp(numbers: list[str]) -> str:
+    return ", ".join(numbers) + " spp"

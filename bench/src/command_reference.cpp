@@ -1,0 +1,38 @@
+#include "bench_scene.h"
+#include "progress.h"
+#include "reference_store.h"
+
+#include <koksma/film/atomic_file.h>
+
+#include <fmt/format.h>
+
+namespace koksma {
+
+int run_reference(const ReferenceCommand& command, const Registry& registry) {
+    const Experiment experiment = load_experiment(command.experiment);
+    const std::filesystem::path folder = command.out.empty() ? reference_cache() : command.out;
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) throw Error(fmt::format("cannot make the folder {}: {}", folder.string(), error.message()));
+    for (const BenchScene& scene : open_scenes(experiment, command.scenes)) {
+        const std::filesystem::path file = folder / reference_file_name(scene.key);
+        if (std::filesystem::exists(file) && !command.force) {
+            const Reference old = load_reference(file, scene.key);
+            fmt::print("{:<10} is there: {} (standard error {:.3e})\n", scene.what.name, file.string(), old.standard_error());
+            continue;
+        }
+        require_writable(file);
+        Reference reference;
+        {
+            Progress progress("reference " + scene.what.name, true);
+            reference = make_reference(scene.scene, scene.plan, scene.key, experiment, command.spp == 0 ? experiment.reference.spp : command.spp, registry,
+                                       command.threads, [&](double f) { progress.update(f); });
+        }
+        save_reference(file, reference);
+        fmt::print("{:<10} {} spp in two halves, standard error {:.3e}, largest z between the halves {:.2f}: {}\n", scene.what.name, reference.spp_total(),
+                   reference.standard_error(), require_agreement(reference), file.string());
+    }
+    return 0;
+}
+
+}  // namespace koksma

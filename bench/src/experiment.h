@@ -1,0 +1,50 @@
+#pragma once
+// What an experiment renders: a small JSON file, checked.
+
+#include <koksma/film/film.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace koksma {
+
+struct ExperimentScene {
+    std::filesystem::path file;
+    std::string name;        ///< the file's stem
+    PixelRect crop;          ///< where errors are measured
+};
+
+/// Renders of each sampler on each scene: replicates[i] of them at spp[i].
+struct Experiment {
+    std::filesystem::path file;
+    std::string name, title;
+    std::vector<ExperimentScene> scenes;
+    std::vector<std::string> samplers;
+    std::vector<std::uint64_t> spp;
+    std::vector<int> replicates;
+    std::uint64_t seed = 0;
+    std::vector<double> targets{1e-2, 1e-3, 1e-4};   ///< of relMSE, for the time to reach them
+    std::uint64_t crop_spp = 16;                     ///< whose images the report shows
+    int picture_size = 256;
+    std::uint64_t picture_spp = 64;
+    struct {
+        std::vector<std::string> samplers;           ///< two, one per half
+        int replicates = 8;
+        std::uint64_t spp = 2048;
+    } reference;
+};
+
+/// @param name_or_file  "default" (a file of bench/experiments) or a path ending in .json
+/// @throws Error naming the file, the key and what was expected; unknown keys are errors
+[[nodiscard]] Experiment load_experiment(const std::string& name_or_file);
+
+/// The same with fewer samples and replicates, for a first look within a minute.
+[[nodiscard]] Experiment quick(Experiment experiment);
+
+/// Root of the data that ships with the program (scenes, experiments, references, the report's Python): the environment variable
+/// KOKSMA_DATA_DIR, else the source tree.
+[[nodiscard]] std::filesystem::path data_directory();
+
+}  // namespace koksma

@@ -1,0 +1,130 @@
+#include <koksma/bench/program.h>
+
+#include "commands.h"
+#include "machine.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <functional>
+
+namespace koksma {
+
+namespace {
+
+void add_scene_options(CLI::App* app, SceneArguments& a, bool scene_required = true) {
+    CLI::Option* scene = app->add_option("scene", a.scene, "Scene file (Mitsuba 3 XML)");
+    if (scene_required) scene->required();
+    app->add_option("-s,--sampler", a.sampler, "Sampler with options, as in sobol:randomize=owen (koksma samplers lists them)");
+    app->add_option("-n,--spp", a.spp, "Samples per pixel");
+    app->add_option("--seed", a.seed, "Seed, below 2^63; every seed is an independent replicate (default 0)");
+    app->add_option("--max-depth", a.max_depth, "Longest path in vertices: 1 sees emission only, -1 has no limit");
+    app->add_option("--rr-depth", a.rr_depth, "Russian roulette from this depth on");
+    app->add_option("--crop", a.crop, "Render only this part of the film: X,Y,WIDTH,HEIGHT")->delimiter(',')->expected(4);
+    app->add_option("-D", a.defines, "Value of a scene parameter: name=value")->take_all()->allow_extra_args(false);
+}
+
+std::string joined(int argc, char** argv) {
+    std::string out = "./koksma";
+    for (int i = 1; i < argc; ++i) out += std::string(" ") + argv[i];
+    return out;
+}
+
+}  // namespace
+
+int run_program(int argc, char** argv) {
+    CLI::App app("Koksma: what a sample sequence buys, in error and in time, when it drives a real path tracer.\n"
+                 "Exit codes: 0 success, 1 failure, 2 wrong usage.",
+                 "koksma");
+    app.set_version_flag("--version", version_text());
+    app.require_subcommand(1);
+    std::function<int()> action;
+    Registry registry;
+
+    RenderCommand render;
+    CLI::App* c = app.add_subcommand("render", "Render a scene to an OpenEXR file");
+    add_scene_options(c, render.scene);
+    c->add_option("-o,--output", render.output, "Image to write (.exr)")->required();
+    c->add_option("-t,--threads", render.threads, "Threads; 0: all (the image does not depend on it)")->check(CLI::Range(0, 4096));
+    c->add_option("--stats", render.stats, "Also write statistics as JSON");
+    c->add_option("--kernel", render.kernel, "A kernel with at least the scene's effects (koksma plan lists them)");
+    c->add_flag("--strict", render.strict, "Fail if any sample is invalid");
+    c->add_flag("-q,--quiet", render.quiet, "No progress");
+    c->final_callback([&] { action = [&] { return run_render(render, registry); }; });
+
+    BenchCommand bench;
+    c = app.add_subcommand("bench", "Run an experiment: error against samples and against seconds, with a report");
+    c->add_option("experiment", bench.experiment, "Name of an experiment or a JSON file (default: default)");
+    c->add_option("-o,--out", bench.out, "Folder for results.jsonl, summary.json and report.html (default: koksma-bench/NAME)");
+    c->add_flag("--quick", bench.quick, "Fewer samples and replicates: under a minute");
+    c->add_flag("--dry-run", bench.dry_run, "Only say what would be rendered and what it would cost");
+    c->add_flag("--no-report", bench.no_report, "Do not make report.html");
+    c->add_option("-s,--sampler", bench.samplers, "Samplers instead of the experiment's; may be repeated")->take_all();
+    c->add_option("--scene", bench.scenes, "Only these scenes of the experiment; may be repeated")->take_all();
+    c->add_option("-t,--threads", bench.threads, "Threads; 0: all")->check(CLI::Range(0, 4096));
+    const std::string command_line = joined(argc, argv);
+    c->final_callback([&] { action = [&] { return run_bench(bench, registry, command_line); }; });
+
+    CompareCommand compare;
+    c = app.add_subcommand("compare", "Compare two images: RMSE, relMSE and more (B is the reference)");
+    c->add_option("a", compare.a, "Image (.exr)")->required();
+    c->add_option("b", compare.b, "Reference image (.exr)")->required();
+    c->add_flag("--json", compare.json, "Print JSON");
+    c->final_callback([&] { action = [&] { return run_compare(compare); }; });
+
+    PlanCommand plan;
+    c = app.add_subcommand("plan", "Show what a scene calls for: effects, slots, kernel, where the tail starts");
+    add_scene_options(c, plan.scene);
+    c->add_flag("--json", plan.json, "Print JSON");
+    c->final_callback([&] { action = [&] { return run_plan(plan, registry); }; });
+
+    bool samplers_json = false;
+    c = app.add_subcommand("samplers", "List the samplers with their options and limits");
+    c->add_flag("--json", samplers_json, "Print JSON");
+    c->final_callback([&] { action = [&] { return run_samplers(samplers_json, registry); }; });
+
+    ReferenceCommand reference;
+    c = app.add_subcommand("reference", "Make the references of an experiment (they are cached; bench makes missing ones itself)");
+    c->add_option("experiment", reference.experiment, "Name of an experiment or a JSON file (default: default)");
+    c->add_option("-o,--out", reference.out, "Folder to write to (default: the user's cache)");
+    c->add_option("--scene", reference.scenes, "Only these scenes; may be repeated")->take_all();
+    c->add_option("-n,--spp", reference.spp, "Samples per pixel of each replicate");
+    c->add_option("-t,--threads", reference.threads, "Threads; 0: all")->check(CLI::Range(0, 4096));
+    c->add_flag("--force", reference.force, "Remake those that exist");
+    c->final_callback([&] { action = [&] { return run_reference(reference, registry); }; });
+
+    std::filesystem::path report_dir;
+    c = app.add_subcommand("report", "Make summary.json and report.html again from a folder's results.jsonl");
+    c->add_option("dir", report_dir, "Folder that koksma bench wrote")->required();
+    c->final_callback([&] { action = [&] { return run_report(report_dir); }; });
+
+    ReplayCommand replay;
+    c = app.add_subcommand("replay", "Print one camera sample's path vertex by vertex");
+    add_scene_options(c, replay.scene, false);
+    c->add_option("--pixel", replay.pixel, "X,Y on the full film")->delimiter(',')->expected(2)->required();
+    c->add_option("--sample", replay.sample, "Index of the sample in its pixel")->required();
+    c->add_option("--from", replay.from, "Take scene, sampler, spp, seed and settings from an image that koksma rendered");
+    c->final_callback([&] { action = [&] { return run_replay(replay, registry); }; });
+
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& e) {
+        return app.exit(e) == 0 ? 0 : 2;
+    }
+    try {
+        register_samplers(registry);
+        return action();
+    } catch (const UsageError& e) {
+        fmt::print(stderr, "koksma: {}\n", e.what());
+        return 2;
+    } catch (const std::bad_alloc&) {
+        fmt::print(stderr, "koksma: out of memory\n");
+        return 1;
+    } catch (const std::exception& e) {
+        fmt::print(stderr, "koksma: {}\n", e.what());
+        return 1;
+    }
+}
+
+}  // namespace koksma

@@ -1,0 +1,83 @@
+#include "row.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+namespace koksma {
+
+void to_json(nlohmann::ordered_json& j, const Row& r) {
+    j = {{"kind", "render"},
+         {"scene", r.scene},
+         {"scene_hash", r.scene_hash},
+         {"sampler", r.sampler},
+         {"sampler_version", r.sampler_version},
+         {"randomized", r.randomized},
+         {"spp", r.spp},
+         {"replicate", r.replicate},
+         {"seed", r.seed},
+         {"film", {r.film[0], r.film[1]}},
+         {"crop", {r.crop[0], r.crop[1], r.crop[2], r.crop[3]}},
+         {"max_depth", r.max_depth},
+         {"rr_depth", r.rr_depth},
+         {"effects", r.effects},
+         {"dimensions", r.dimensions},
+         {"kernel", r.kernel},
+         {"mse", r.mse},
+         {"mse_raw", r.mse_raw},
+         {"rmse", r.mse > 0.0 ? nlohmann::ordered_json(r.rmse) : nlohmann::ordered_json()},
+         {"relmse", r.relmse},
+         {"relmse_raw", r.relmse_raw},
+         {"mean_rgb", {r.mean_rgb[0], r.mean_rgb[1], r.mean_rgb[2]}},
+         {"wall_seconds", r.wall_seconds},
+         {"cpu_seconds", r.cpu_seconds},
+         {"sampler_seconds", r.sampler_seconds},
+         {"sampler_share", r.cpu_seconds > 0.0 ? r.sampler_seconds / r.cpu_seconds : 0.0},
+         {"paths", r.paths},
+         {"rays", r.rays},
+         {"invalid_samples", r.invalid_samples},
+         {"threads", r.threads},
+         {"estimator_version", r.estimator_version},
+         {"reference", r.reference},
+         {"commit", r.commit},
+         {"machine", r.machine},
+         {"isa", r.isa}};
+}
+
+void from_json(const nlohmann::ordered_json& j, Row& r) {
+    j.at("scene").get_to(r.scene);
+    j.at("scene_hash").get_to(r.scene_hash);
+    j.at("sampler").get_to(r.sampler);
+    j.at("sampler_version").get_to(r.sampler_version);
+    j.at("randomized").get_to(r.randomized);
+    j.at("spp").get_to(r.spp);
+    j.at("replicate").get_to(r.replicate);
+    j.at("seed").get_to(r.seed);
+    for (std::size_t i = 0; i < 2; ++i) r.film[i] = j.at("film").at(i);
+    for (std::size_t i = 0; i < 4; ++i) r.crop[i] = j.at("crop").at(i);
+    j.at("max_depth").get_to(r.max_depth);
+    j.at("rr_depth").get_to(r.rr_depth);
+    j.at("effects").get_to(r.effects);
+    j.at("dimensions").get_to(r.dimensions);
+    j.at("kernel").get_to(r.kernel);
+    j.at("mse").get_to(r.mse);
+    j.at("mse_raw").get_to(r.mse_raw);
+    r.rmse = r.mse > 0.0 ? std::sqrt(r.mse) : 0.0;
+    j.at("relmse").get_to(r.relmse);
+    j.at("relmse_raw").get_to(r.relmse_raw);
+    for (std::size_t i = 0; i < 3; ++i) r.mean_rgb[i] = j.at("mean_rgb").at(i);
+    j.at("wall_seconds").get_to(r.wall_seconds);
+    j.at("cpu_seconds").get_to(r.cpu_seconds);
+    j.at("sampler_seconds").get_to(r.sampler_seconds);
+    j.at("paths").get_to(r.paths);
+    j.at("rays").get_to(r.rays);
+    j.at("invalid_samples").get_to(r.invalid_samples);
+    j.at("threads").get_to(r.threads);
+    j.at("estimator_version").get_to(r.estimator_version);
+    j.at("reference").get_to(r.reference);
+    j.at("commit").get_to(r.commit);
+    j.at("machine").get_to(r.machine);
+    j.at("isa").get_to(r.isa);
+}
+
+}  // namespace koksma

@@ -1,0 +1,36 @@
+#pragma once
+// One line of results.jsonl: one render, measured.
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace koksma {
+
+struct Row {
+    std::string scene, scene_hash, sampler;
+    std::uint32_t sampler_version = 0;
+    bool randomized = true;
+    std::uint64_t spp = 0, seed = 0;
+    int replicate = 0;
+    int film[2] = {}, crop[4] = {};
+    int max_depth = 0, rr_depth = 0;
+    std::vector<std::string> effects;
+    std::uint32_t dimensions = 0;
+    std::string kernel;
+    double mse = 0, mse_raw = 0, rmse = 0, relmse = 0, relmse_raw = 0;  ///< mse, rmse, relmse corrected for the reference's noise
+    double mean_rgb[3] = {};
+    double wall_seconds = 0, cpu_seconds = 0, sampler_seconds = 0;
+    std::uint64_t paths = 0, rays = 0, invalid_samples = 0;
+    int threads = 0;
+    int estimator_version = 0;
+    std::string reference;      ///< digest of the reference that it was compared with
+    std::string commit, machine, isa;
+};
+
+void to_json(nlohmann::ordered_json& json, const Row& row);
+void from_json(const nlohmann::ordered_json& json, Row& row);
+
+}  // namespace koksma

@@ -1,0 +1,201 @@
+#include "summary.h"
+
+#include <koksma/measure/ratio.h>
+#include <koksma/measure/rmse_estimate.h>
+#include <koksma/measure/slope.h>
+#include <koksma/measure/time_to.h>
+#include <koksma/sampling/error.h>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <fstream>
+#include <functional>
+#include <map>
+
+namespace koksma {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+constexpr double kConfidence = 0.95;
+
+Json number(double x) { return std::isfinite(x) ? Json(x) : Json(); }
+
+/// The replicates of one sampler at one spp.
+struct Point {
+    std::uint64_t spp = 0;
+    std::vector<double> mse, relmse, wall, cpu, sampler;
+    std::uint64_t invalid = 0;
+};
+using Curve = std::map<std::uint64_t, Point>;  // by spp
+
+Curve curve_of(const std::vector<Row>& rows, const std::string& scene, const std::string& sampler) {
+    Curve curve;
+    for (const Row& r : rows) {
+        if (r.scene != scene || r.sampler != sampler) continue;
+        Point& p = curve[r.spp];
+        p.spp = r.spp;
+        p.mse.push_back(r.mse);
+        p.relmse.push_back(r.relmse);
+        p.wall.push_back(r.wall_seconds);
+        p.cpu.push_back(r.cpu_seconds);
+        p.sampler.push_back(r.sampler_seconds);
+        p.invalid += r.invalid_samples;
+    }
+    return curve;
+}
+
+/// Without a randomisation all replicates are one: keep its error, drop the interval.
+std::vector<double> replicates(const std::vector<double>& values, bool randomized) {
+    return randomized ? values : std::vector<double>(values.begin(), values.begin() + 1);
+}
+
+Json point_json(const Point& p, bool randomized) {
+    const RmseEstimate mse = rmse_estimate(replicates(p.mse, randomized), kConfidence);
+    const Estimate relmse = metric_estimate(replicates(p.relmse, randomized), kConfidence);
+    const Estimate cpu = mean_estimate(p.cpu, kConfidence), wall = mean_estimate(p.wall, kConfidence);
+    return {{"spp", p.spp},
+            {"replicates", p.mse.size()},
+            {"rmse", number(mse.rmse.value)},
+            {"rmse_lo", number(mse.rmse.lo)},
+            {"rmse_hi", number(mse.rmse.hi)},
+            {"mse", mse.mean_mse},
+            {"relmse", number(relmse.value)},
+            {"relmse_lo", number(relmse.lo)},
+            {"relmse_hi", number(relmse.hi)},
+            {"cpu_seconds", cpu.value},
+            {"cpu_seconds_lo", number(cpu.lo)},
+            {"cpu_seconds_hi", number(cpu.hi)},
+            {"wall_seconds", wall.value},
+            {"sampler_share", cpu.value > 0.0 ? mean_estimate(p.sampler, kConfidence).value / cpu.value : 0.0},
+            {"below_floor", mse.below_floor}};
+}
+
+Json slope_json(const Curve& curve, bool randomized) {
+    std::vector<RatePoint> points;
+    for (const auto& [spp, p] : curve)
+        if (spp > 1) points.push_back({static_cast<double>(spp), replicates(p.mse, randomized)});
+    const SlopeFit fit = fit_slope(points, kConfidence);
+    if (!std::isfinite(fit.value)) return nullptr;
+    return {{"value", fit.value},
+            {"lo", number(fit.lo)},
+            {"hi", number(fit.hi)},
+            {"intercept", fit.intercept},
+            {"straight_p", number(fit.straight_p)},
+            {"spp_from", static_cast<std::uint64_t>(fit.from)},
+            {"spp_to", static_cast<std::uint64_t>(fit.to)}};
+}
+
+Json times_json(const Curve& curve, bool randomized, const std::vector<double>& targets) {
+    std::vector<TimedError> timed;
+    for (const auto& [spp, p] : curve) timed.push_back({mean_estimate(p.cpu).value, metric_estimate(replicates(p.relmse, randomized), kConfidence)});
+    Json out = Json::array();
+    for (const double target : targets) {
+        const TimeTo t = time_to(timed, target);
+        const char* how = t.how == TimeTo::How::measured ? "measured" : (t.how == TimeTo::How::interpolated ? "interpolated" : "not reached");
+        out.push_back({{"relmse", target}, {"seconds", number(t.seconds)}, {"lo", number(t.lo)}, {"hi", number(t.hi)}, {"how", how}, {"reached_relmse", number(t.best_error)}});
+    }
+    return out;
+}
+
+/// MSE of the baseline over that of a sampler at the largest spp that both have.
+Json gain_json(const Curve& curve, bool randomized, const Curve& baseline) {
+    if (!randomized) return nullptr;
+    for (auto it = curve.rbegin(); it != curve.rend(); ++it) {
+        const auto other = baseline.find(it->first);
+        if (other == baseline.end()) continue;
+        const Gain g = gain(it->second.mse, other->second.mse, kConfidence);
+        if (g.below_floor) return nullptr;
+        return {{"spp", it->first}, {"mse_ratio", number(g.value)}, {"lo", number(g.lo)}, {"hi", number(g.hi)}, {"distinguishable", g.distinguishable()}};
+    }
+    return nullptr;
+}
+
+std::string label_of(const Json& header, const std::string& sampler) {
+    for (const Json& s : header.at("samplers"))
+        if (s.at("sampler") == sampler) return s.at("label");
+    return sampler;
+}
+
+/// The first row of a scene: what all its rows have in common.
+const Row* first_row(const std::vector<Row>& rows, const std::string& scene, const std::string& sampler = {}) {
+    for (const Row& r : rows)
+        if (r.scene == scene && (sampler.empty() || r.sampler == sampler)) return &r;
+    return nullptr;
+}
+
+}  // namespace
+
+Json summarize(const Json& header, const std::vector<Row>& rows) {
+    Json summary = {{"schema", 1}, {"experiment", header.at("experiment")}, {"scenes", Json::array()}};
+    summary["experiment"]["confidence"] = kConfidence;
+    std::uint64_t invalid = 0;
+    double seconds = 0.0;
+    for (const Row& r : rows) {
+        invalid += r.invalid_samples;
+        seconds += r.wall_seconds;
+    }
+    for (const Json& scene : header.at("scenes")) {
+        const std::string name = scene.at("name");
+        const Row* first = first_row(rows, name);
+        if (first == nullptr) continue;
+        Json out = scene;
+        out["effects"] = first->effects;
+        out["dimensions"] = first->dimensions;
+        out["kernel"] = first->kernel;
+        std::string baseline;
+        for (const Json& s : header.at("samplers"))
+            if (const std::string spec = s.at("sampler"); spec == "random") baseline = spec;
+        const Curve base_curve = curve_of(rows, name, baseline);
+        Json samplers = Json::array();
+        for (const Json& s : header.at("samplers")) {
+            const std::string spec = s.at("sampler");
+            const Row* row = first_row(rows, name, spec);
+            if (row == nullptr) continue;
+            const Curve curve = curve_of(rows, name, spec);
+            Json points = Json::array();
+            for (const auto& [spp, p] : curve) points.push_back(point_json(p, row->randomized));
+            Json entry = {{"sampler", spec},
+                          {"label", label_of(header, spec)},
+                          {"randomized", row->randomized},
+                          {"points", points},
+                          {"slope", slope_json(curve, row->randomized)},
+                          {"time_to", times_json(curve, row->randomized, header.at("relmse_targets"))},
+                          {"gain_vs_random", spec == baseline ? Json() : gain_json(curve, row->randomized, base_curve)}};
+            const Json& crops = scene.at("crops");
+            entry["crop"] = crops.contains(spec) ? crops.at(spec) : Json();
+            entry["crop_spp"] = header.at("crop_spp");
+            entry["error_map"] = nullptr;
+            samplers.push_back(entry);
+        }
+        out["samplers"] = samplers;
+        out.erase("crops");
+        summary["scenes"].push_back(out);
+    }
+    summary["invalid_samples"] = invalid;
+    summary["seconds_total"] = seconds;
+    return summary;
+}
+
+void read_results(const std::filesystem::path& file, Json& header, std::vector<Row>& rows) {
+    std::ifstream in(file);
+    if (!in) throw Error(fmt::format("cannot read {}; expected a folder that koksma bench wrote", file.string()));
+    std::size_t number = 0;
+    for (std::string line; std::getline(in, line);) {
+        ++number;
+        try {
+            const Json json = Json::parse(line);
+            if (json.at("kind") == "header")
+                header = json;
+            else if (json.at("kind") == "render")
+                rows.push_back(json.get<Row>());
+        } catch (const Json::exception& e) {
+            throw Error(fmt::format("{}:{}: not a row of results: {}", file.string(), number, e.what()));
+        }
+    }
+    if (header.is_null() || rows.empty()) throw Error(fmt::format("{} holds no results", file.string()));
+}
+
+}  // namespace koksma

@@ -1,0 +1,30 @@
+# Catch2 2.13 and 3 behind one target, and one function that makes a labelled test program.
+
+find_package(Catch2 3 QUIET CONFIG)
+if(Catch2_FOUND)
+  add_library(koksma_catch INTERFACE)
+  target_link_libraries(koksma_catch INTERFACE Catch2::Catch2WithMain)
+else()
+  find_package(Catch2 2.13 REQUIRED CONFIG)
+  file(WRITE ${PROJECT_BINARY_DIR}/catch_main.cpp "#define CATCH_CONFIG_MAIN\n#include <catch2/catch.hpp>\n")
+  add_library(koksma_catch STATIC ${PROJECT_BINARY_DIR}/catch_main.cpp)
+  target_link_libraries(koksma_catch PUBLIC Catch2::Catch2)
+  target_compile_features(koksma_catch PUBLIC cxx_std_20)
+endif()
+target_include_directories(koksma_catch INTERFACE ${PROJECT_SOURCE_DIR}/tests)
+include(Catch)
+
+# koksma_add_test(<name> LABELS <label>... SOURCES <file>... [SAMPLERS ALL | <name>...] [LINK <target>...])
+#   One program, one CTest test per TEST_CASE, named "<name>: <test case>".
+function(koksma_add_test name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "LABELS;SOURCES;SAMPLERS;LINK")
+  add_executable(test_${name} ${arg_SOURCES})
+  koksma_target(test_${name})
+  target_link_libraries(test_${name} PRIVATE koksma_catch koksma::sampling ${arg_LINK})
+  target_compile_definitions(test_${name} PRIVATE KOKSMA_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  if(arg_SAMPLERS)
+    koksma_link_samplers(test_${name} ${arg_SAMPLERS})
+  endif()
+  catch_discover_tests(test_${name} TEST_PREFIX "${name}: " DISCOVERY_MODE PRE_TEST
+                       PROPERTIES LABELS "${arg_LABELS}" TIMEOUT 600)
+endfunction()

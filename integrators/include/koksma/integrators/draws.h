@@ -1,0 +1,112 @@
+#pragma once
+// The random numbers of a block of paths, fetched from the sampler by batch and read by role.
+
+#include <koksma/plan/plan.h>
+#include <koksma/sampling/sample_source.h>
+
+#include <chrono>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace koksma {
+
+/// Reads the slots of up to kCapacity paths. The camera's slots and those of the first bounces are filled for the whole
+/// block at once, since nearly all paths need them; later bounces for one path at a time. One object per thread.
+class Draws {
+public:
+    static constexpr std::size_t kCapacity = 64;
+    static constexpr std::size_t kBlockBounces = 2;
+
+    Draws(const RenderPlan& plan, const SampleSource& source)
+        : plan_(plan), source_(source), camera_(dimension_count(plan.layout.camera()) * kCapacity) {
+        std::uint32_t widest = 0;
+        for (std::size_t b = 0; b < plan.layout.bounce_count(); ++b) {
+            const std::uint32_t n = dimension_count(plan.layout.bounce(b));
+            if (b < kBlockBounces) block_[b].resize(n * kCapacity);
+            widest = n > widest ? n : widest;
+        }
+        single_.resize(widest);
+    }
+
+    /// Starts a block. `timed`: also measure the time that its fills take.
+    void begin(std::span<const SampleId> samples, bool timed) noexcept {
+        samples_ = samples;
+        timed_ = timed;
+        for (bool& f : filled_) f = false;
+        fill(samples_, plan_.layout.camera(), camera_.data(), kCapacity);
+    }
+    /// The path to read from now on.
+    void select(std::size_t path) noexcept {
+        path_ = path;
+        single_bounce_ = kNoBounce;
+    }
+    [[nodiscard]] const SampleId& id() const noexcept { return samples_[path_]; }
+
+    [[nodiscard]] glm::vec2 film() const noexcept { return {camera_[path_], camera_[kCapacity + path_]}; }
+    [[nodiscard]] glm::vec2 lens() const noexcept {
+        const float* row = &camera_[static_cast<std::size_t>(plan_.lens) * kCapacity + path_];
+        return {row[0], row[kCapacity]};
+    }
+    [[nodiscard]] float get_1d(std::size_t bounce, SlotRole role, std::int16_t BounceSlots::*member) noexcept {
+        return bounce < plan_.bounces.size() ? value(bounce, plan_.bounces[bounce].*member, 0) : tail(bounce, role, 0);
+    }
+    [[nodiscard]] glm::vec2 get_2d(std::size_t bounce, SlotRole role, std::int16_t BounceSlots::*member) noexcept {
+        if (bounce >= plan_.bounces.size()) return {tail(bounce, role, 0), tail(bounce, role, 1)};
+        const std::int16_t offset = plan_.bounces[bounce].*member;
+        return {value(bounce, offset, 0), value(bounce, offset, 1)};
+    }
+    [[nodiscard]] float light_choice(std::size_t b) noexcept { return get_1d(b, SlotRole::light_choice, &BounceSlots::light_choice); }
+    [[nodiscard]] glm::vec2 light_position(std::size_t b) noexcept { return get_2d(b, SlotRole::light_position, &BounceSlots::light_position); }
+    [[nodiscard]] float lobe(std::size_t b) noexcept { return get_1d(b, SlotRole::lobe, &BounceSlots::lobe); }
+    [[nodiscard]] glm::vec2 direction(std::size_t b) noexcept { return get_2d(b, SlotRole::direction, &BounceSlots::direction); }
+    [[nodiscard]] float roulette(std::size_t b) noexcept { return get_1d(b, SlotRole::roulette, &BounceSlots::roulette); }
+
+    /// Seconds spent in the fills of timed blocks, and calls and numbers that they made.
+    double timed_seconds = 0.0;
+    std::uint64_t timed_calls = 0;
+    std::uint64_t tail_numbers = 0;  ///< numbers drawn from the tail beyond the layout
+
+private:
+    static constexpr std::size_t kNoBounce = ~std::size_t{0};
+
+    [[nodiscard]] float value(std::size_t bounce, std::int16_t offset, int k) noexcept {
+        const auto row = static_cast<std::size_t>(offset + k);
+        if (bounce < kBlockBounces) {
+            if (!filled_[bounce]) {
+                fill(samples_, plan_.layout.bounce(bounce), block_[bounce].data(), kCapacity);
+                filled_[bounce] = true;
+            }
+            return block_[bounce][row * kCapacity + path_];
+        }
+        if (single_bounce_ != bounce) {
+            fill(samples_.subspan(path_, 1), plan_.layout.bounce(bounce), single_.data(), 1);
+            single_bounce_ = bounce;
+        }
+        return single_[row];
+    }
+    [[nodiscard]] float tail(std::size_t bounce, SlotRole role, std::uint32_t k) noexcept {
+        ++tail_numbers;
+        return tail_sample(source_.seed(), id(), static_cast<std::uint32_t>(bounce), role, k);
+    }
+    void fill(std::span<const SampleId> ids, SlotRun run, float* out, std::size_t stride) noexcept {
+        if (!timed_) {
+            source_.fill(ids, run, out, stride);
+            return;
+        }
+        const auto start = std::chrono::steady_clock::now();
+        source_.fill(ids, run, out, stride);
+        timed_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        ++timed_calls;
+    }
+
+    const RenderPlan& plan_;
+    const SampleSource& source_;
+    std::span<const SampleId> samples_;
+    std::vector<float> camera_, block_[kBlockBounces], single_;
+    bool filled_[kBlockBounces] = {};
+    bool timed_ = false;
+    std::size_t path_ = 0, single_bounce_ = kNoBounce;
+};
+
+}  // namespace koksma

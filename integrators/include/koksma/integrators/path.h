@@ -1,0 +1,181 @@
+#pragma once
+// The reference path kernel: one ray at a time, in the order in which a lecture explains it.
+
+#include <koksma/integrators/camera_ray.h>
+#include <koksma/integrators/draws.h>
+#include <koksma/scene/light_sampling.h>
+
+#include <cmath>
+#include <limits>
+
+namespace koksma {
+
+/// Rays that a kernel traced.
+struct RayCounts {
+    std::uint64_t closest = 0, shadow = 0;
+};
+
+/// Watches nothing, at no cost. An observer with the same members sees every step of a path (koksma replay).
+struct NoObserver {
+    void camera(const Ray&) noexcept {}
+    void escaped(Vec3f, Vec3f, float) noexcept {}
+    void vertex(const Surface&, Hit, Vec3f, Vec3f) noexcept {}
+    void emission(Vec3f, float) noexcept {}
+    void direct_light(std::uint32_t, const LightSample&, Vec3f, float, bool) noexcept {}
+    void bounce(const BsdfSample&, Vec3f, Vec3f) noexcept {}
+    void roulette(float, float, bool) noexcept {}
+};
+
+/// True if Embree may see the ray: finite, and with a direction.
+[[nodiscard]] inline bool is_traceable(const Ray& ray) noexcept {
+    // Any NaN or infinity makes this product a NaN.
+    const float zero = (ray.o.x + ray.o.y + ray.o.z + ray.d.x + ray.d.y + ray.d.z) * 0.0f;
+    return zero == 0.0f && dot(ray.d, ray.d) > 0.0f;
+}
+
+/// The radiance along one camera sample: emission, next-event estimation and BSDF sampling combined by the power heuristic,
+/// Russian roulette without a cap.
+/// @param draws     with the path selected
+/// @return          linear RGB, W sr^-1 m^-2; a NaN if a ray could not be traced (the film counts and locates it)
+/// Source: Kajiya 1986, "The rendering equation"; Veach 1997, chapters 8 to 10. max_depth and rr_depth as in Mitsuba 3.
+template <EffectSet kEffects, class Observer>
+[[nodiscard]] Vec3f trace_path(const Scene& scene, const IntegratorSettings& settings, Draws& draws, RayCounts& rays, Observer& observer) noexcept {
+    constexpr Vec3f kInvalid{std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::quiet_NaN(),
+                             std::numeric_limits<float>::quiet_NaN()};
+    constexpr bool kSmooth = kEffects.has(Effect::diffuse) || kEffects.has(Effect::glossy);
+    constexpr bool kExtendedLights = kEffects.has(Effect::area_light) || kEffects.has(Effect::environment);
+    constexpr bool kDelta = kEffects.has(Effect::specular) || kEffects.has(Effect::dielectric);
+
+    Vec3f radiance{0.0f};
+    Vec3f beta{1.0f};              // f |cos| / pdf of the path so far
+    float eta_scale = 1.0f;        // square of the index that the path is in: what beta lost by compression, for roulette
+    float pdf_bsdf = 0.0f;         // of the last direction, per steradian
+    bool last_was_delta = true;    // light sampling could not have made the last direction
+    Vec3f last_p{0.0f};
+
+    glm::vec2 u_lens{0.0f};
+    if constexpr (kEffects.has(Effect::lens)) u_lens = draws.lens();
+    Ray ray = camera_ray<kEffects>(scene, draws.id().pixel, draws.film(), u_lens);
+    observer.camera(ray);
+    if (settings.max_depth == 0) return radiance;
+
+    const auto light_probability = [&](std::uint32_t light) {
+        if constexpr (kEffects.has(Effect::light_choice)) return scene.light_choice.probability(light);
+        return 1.0f;
+    };
+
+    for (std::int32_t depth = 0;; ++depth) {
+        // ---- where the ray goes
+        if (!is_traceable(ray)) return kInvalid;
+        ++rays.closest;
+        const Hit hit = scene.accelerator.intersect(ray);
+        if (!hit.valid()) {
+            if constexpr (kEffects.has(Effect::environment)) {
+                if (scene.environment_light >= 0 && !(depth == 0 && settings.hide_emitters)) {
+                    const Vec3f le = environment_radiance<kEffects>(scene, ray.d);
+                    float weight = 1.0f;
+                    if (!last_was_delta)
+                        weight = power_heuristic(pdf_bsdf, environment_pdf<kEffects>(scene, ray.d) *
+                                                               light_probability(static_cast<std::uint32_t>(scene.environment_light)));
+                    radiance += beta * le * weight;
+                    observer.escaped(ray.d, beta * le * weight, weight);
+                }
+            }
+            break;
+        }
+        const Surface surface = surface_at<kEffects>(scene, ray, hit);
+        const Vec3f wo = -ray.d;
+        observer.vertex(surface, hit, wo, beta);
+
+        // ---- light that the surface itself sends out
+        if constexpr (kEffects.has(Effect::area_light)) {
+            const Vec3f le = emitted<kEffects>(scene, surface, wo);
+            if (max_component(le) > 0.0f && !(depth == 0 && settings.hide_emitters)) {
+                float weight = 1.0f;
+                if (!last_was_delta) {
+                    const auto index = static_cast<std::uint32_t>(scene.geometries[surface.geometry].light);
+                    weight = power_heuristic(pdf_bsdf, light_pdf<kEffects>(scene, scene.lights[index], last_p, surface, ray.d) *
+                                                           light_probability(index));
+                }
+                radiance += beta * le * weight;
+                observer.emission(beta * le * weight, weight);
+            }
+        }
+        if (settings.max_depth >= 0 && depth + 1 >= settings.max_depth) break;
+
+        const LocalBsdf local = bsdf_at<kEffects>(scene, surface, wo);
+        const Vec3f wo_local = local.frame.to_local(wo);
+        const auto bounce = static_cast<std::size_t>(depth);
+
+        // ---- light that arrives straight from a light source
+        if constexpr (kSmooth) {
+            if (has_smooth_lobe(local.bsdf) && scene.light_choice.total() > 0.0) {
+                std::uint32_t index = 0;
+                float probability = 1.0f;
+                if constexpr (kEffects.has(Effect::light_choice)) {
+                    const DiscreteSample choice = scene.light_choice.sample(draws.light_choice(bounce));
+                    index = choice.index;
+                    probability = choice.probability;
+                }
+                glm::vec2 u_light{0.0f};
+                if constexpr (kExtendedLights) u_light = draws.light_position(bounce);
+                const LightSample light = sample_light<kEffects>(scene, scene.lights[index], surface.p, u_light);
+                if (light.pdf_w > 0.0f) {
+                    const BsdfValue value = eval_bsdf<kEffects>(local.bsdf, wo_local, local.frame.to_local(light.wi));
+                    const float pdf_light = light.pdf_w * probability;
+                    const float weight = light.delta ? 1.0f : power_heuristic(pdf_light, value.pdf_w);
+                    const Vec3f contribution = beta * value.f_cos * light.radiance * (weight / pdf_light);
+                    if (max_component(contribution) > 0.0f) {
+                        Ray shadow;
+                        shadow.o = offset_origin(surface.p, surface.p_error, surface.ng, light.wi);
+                        shadow.d = light.at_infinity ? light.wi : light.target - shadow.o;
+                        shadow.t_far = light.at_infinity ? kInfinity : 1.0f;
+                        if (!is_traceable(shadow)) return kInvalid;
+                        ++rays.shadow;
+                        const bool visible = !scene.accelerator.occluded(shadow);
+                        if (visible) radiance += contribution;
+                        observer.direct_light(index, light, contribution, weight, visible);
+                    }
+                }
+            }
+        }
+
+        // ---- where the path goes on
+        float u_lobe = 0.0f;
+        if constexpr (kEffects.has(Effect::dielectric))
+            if (local.bsdf.kind == BsdfKind::dielectric) u_lobe = draws.lobe(bounce);
+        glm::vec2 u_direction{0.0f};
+        if constexpr (kSmooth)
+            if (has_smooth_lobe(local.bsdf)) u_direction = draws.direction(bounce);
+        const BsdfSample next = sample_bsdf<kEffects>(local.bsdf, wo_local, u_lobe, u_direction);
+        if (!(next.pdf_w > 0.0f)) break;
+        beta *= next.weight;
+        if (!(max_component(beta) > 0.0f)) break;
+        if constexpr (kEffects.has(Effect::dielectric)) eta_scale *= next.eta * next.eta;
+        const Vec3f wi = local.frame.to_world(next.wi);
+        observer.bounce(next, wi, beta);
+        pdf_bsdf = next.pdf_w;
+        if constexpr (kDelta)
+            last_was_delta = next.delta;
+        else
+            last_was_delta = false;
+        last_p = surface.p;
+        ray = Ray{offset_origin(surface.p, surface.p_error, surface.ng, wi), wi};
+
+        // ---- Russian roulette: survival is never capped below one (a cap q gives infinite variance once albedo^2 >= q)
+        if constexpr (kEffects.has(Effect::roulette)) {
+            if (depth + 1 >= settings.rr_depth) {
+                const float survival = max_component(beta) * eta_scale;
+                if (survival < 1.0f) {
+                    const float u = draws.roulette(bounce);
+                    observer.roulette(u, survival, u < survival);
+                    if (!(u < survival)) break;
+                    beta *= 1.0f / survival;
+                }
+            }
+        }
+    }
+    return radiance;
+}
+
+}  // namespace koksma

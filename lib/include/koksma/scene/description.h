@@ -1,0 +1,188 @@
+#pragma once
+// A scene as plain values: what a file says, nothing computed from it. Made by load_scene() or by hand; compiled by compile().
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace koksma {
+
+/// Where something was written; line and column count from 1, 0 when unknown.
+struct SourceLocation {
+    std::string file;
+    int line = 0, column = 0;
+    /// "file:line:column", or as much of it as is known.
+    [[nodiscard]] std::string text() const;
+};
+
+using Rgb = glm::vec3;  ///< linear sRGB primaries
+
+// ------------------------------------------------------------------------------------------------ textures
+
+/// Pixels of a bitmap, linear. Row 0 is the top of the picture and spans v in [0, 1/height): v counts downwards, as in Mitsuba
+/// (load_scene() turns the v of OBJ files over, which counts upwards).
+struct Image {
+    int width = 0, height = 0;
+    std::vector<Rgb> texels;  ///< (height, width)
+};
+
+struct BitmapTexture {
+    enum class Filter : std::uint8_t { bilinear, nearest };
+    enum class Wrap : std::uint8_t { repeat, mirror, clamp };
+    std::shared_ptr<const Image> image;
+    Filter filter = Filter::bilinear;
+    Wrap wrap = Wrap::repeat;
+    glm::dmat3 to_uv{1.0};
+};
+
+struct CheckerboardTexture {
+    Rgb color0{0.4f}, color1{0.2f};
+    glm::dmat3 to_uv{1.0};
+};
+
+/// A value per point of a surface; a constant is the common case.
+using Texture = std::variant<Rgb, BitmapTexture, CheckerboardTexture>;
+
+// ------------------------------------------------------------------------------------------------ materials
+
+struct Diffuse {
+    Texture reflectance = Rgb(0.5f);
+};
+struct Dielectric {
+    float int_ior = 1.5046f, ext_ior = 1.000277f;
+    Rgb specular_reflectance{1.0f}, specular_transmittance{1.0f};
+};
+/// eta = k = 0 with `perfect` set is a mirror that reflects everything (material "none").
+struct Conductor {
+    bool perfect = true;
+    Rgb eta{0.0f}, k{1.0f};
+    Rgb specular_reflectance{1.0f};
+};
+struct RoughConductor {
+    enum class Distribution : std::uint8_t { beckmann, ggx };
+    Conductor base;
+    Distribution distribution = Distribution::beckmann;
+    Texture alpha_u = Rgb(0.1f), alpha_v = Rgb(0.1f);
+};
+using OneSidedMaterial = std::variant<Diffuse, Dielectric, Conductor, RoughConductor>;
+
+/// A BSDF. With `two_sided`, `back` is seen from below; without, `back` is empty.
+struct Material {
+    std::string id;
+    OneSidedMaterial front;
+    std::optional<OneSidedMaterial> back;
+    bool two_sided = false;
+    SourceLocation where;
+};
+
+// ------------------------------------------------------------------------------------------------ shapes
+
+/// A triangle mesh in its own space.
+struct MeshData {
+    std::vector<glm::vec3> positions;
+    std::vector<glm::vec3> normals;    ///< per vertex, or empty: faceted (load_scene() computes smooth ones where a file has none)
+    std::vector<glm::vec2> uvs;        ///< per vertex, or empty
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+struct MeshShape {
+    std::shared_ptr<const MeshData> data;
+};
+struct RectangleShape {};  ///< [-1, 1]^2 in z = 0, normal +z
+struct DiskShape {};       ///< unit disk in z = 0, normal +z
+struct CubeShape {};       ///< [-1, 1]^3
+struct SphereShape {
+    glm::dvec3 center{0.0};
+    double radius = 1.0;
+};
+using Geometry = std::variant<MeshShape, RectangleShape, DiskShape, CubeShape, SphereShape>;
+
+/// One-sided diffuse emission of a surface.
+struct AreaEmission {
+    Texture radiance = Rgb(1.0f);  ///< W sr^-1 m^-2
+    SourceLocation where;
+};
+
+struct Shape {
+    std::string id;
+    Geometry geometry;
+    glm::dmat4 to_world{1.0};
+    bool flip_normals = false;
+    bool face_normals = false;
+    std::uint32_t material = 0;  ///< index into SceneDescription::materials
+    std::optional<AreaEmission> emission;
+    SourceLocation where;
+};
+
+// ------------------------------------------------------------------------------------------------ emitters
+
+struct PointLight {
+    glm::dvec3 position{0.0};
+    Rgb intensity{1.0f};  ///< W sr^-1
+    SourceLocation where;
+};
+/// Radiance from all directions.
+struct ConstantEnvironment {
+    Rgb radiance{1.0f};
+    SourceLocation where;
+};
+/// A latitude-longitude map; +y is up in its own space.
+struct MapEnvironment {
+    std::shared_ptr<const Image> image;
+    float scale = 1.0f;
+    glm::dmat4 to_world{1.0};
+    SourceLocation where;
+};
+using Environment = std::variant<ConstantEnvironment, MapEnvironment>;
+
+// ------------------------------------------------------------------------------------------------ camera, film, settings
+
+struct Camera {
+    glm::dmat4 to_world{1.0};     ///< camera looks along its +z, +x is left in the image (Mitsuba's frame)
+    double fov_x_degrees = 50.0;  ///< horizontal, of the full film (fov_axis is resolved by the loader)
+    double near_clip = 1e-2, far_clip = 1e4;   ///< distances along the camera's z
+    double aperture_radius = 0.0;              ///< 0: pinhole
+    double focus_distance = 1e4;               ///< distance along z of the plane in focus
+    glm::dvec2 principal_point_offset{0.0};    ///< in fractions of the full film: film position (x, y) sees what (x, y) + offset saw without it
+    SourceLocation where;
+};
+
+struct FilmSettings {
+    std::int32_t width = 768, height = 576;
+    std::int32_t crop_x = 0, crop_y = 0, crop_width = 0, crop_height = 0;  ///< crop_width 0: the whole film
+};
+
+struct IntegratorSettings {
+    std::int32_t max_depth = -1;  ///< longest path in vertices after the camera; 1: emission seen directly; -1: no limit
+    std::int32_t rr_depth = 5;    ///< roulette from this depth on
+    bool hide_emitters = false;   ///< directly visible emitters are black
+};
+
+/// The whole of a scene file.
+struct SceneDescription {
+    std::string file;
+    std::vector<Material> materials;  ///< [0] is the default diffuse of reflectance 0.5
+    std::vector<Shape> shapes;
+    std::vector<PointLight> point_lights;
+    std::optional<Environment> environment;
+    Camera camera;
+    FilmSettings film;
+    IntegratorSettings integrator;
+    std::string sampler;          ///< our name of the sampler that the file asks for; empty when it names none of ours
+    std::uint64_t spp = 4;        ///< sample_count of the file
+    std::uint64_t seed = 0;
+    std::uint64_t hash = 0;       ///< of everything that can change the expected image, film size too; not of crop, rr_depth, sampler, spp or seed
+    std::string purpose, expect;  ///< from the header comment of built-in scenes ("purpose: ...", "expect: ..."); may be empty
+};
+
+}  // namespace koksma

@@ -1,0 +1,172 @@
+#pragma once
+// Emission, and how lights are sampled: position and density always by the same expressions, so that MIS weights add up to one.
+
+#include <koksma/scene/surface.h>
+
+namespace koksma {
+
+/// A direction toward a light as drawn by light sampling; pdf_w == 0 means that there is none.
+struct LightSample {
+    Vec3f wi;                 ///< unit, from the shaded point
+    Vec3f radiance;           ///< arriving along wi if nothing is in between (point lights: intensity / distance^2)
+    float pdf_w = 0.0f;       ///< per steradian, of this light (its choice not included); 1 for a delta light
+    bool delta = false;
+    bool at_infinity = false;
+    Vec3f target;             ///< end of the shadow ray, already moved off the light's surface
+};
+
+/// Multiple importance sampling weight of a technique with density a against one with density b.
+/// The ratio form neither overflows nor gives 0/0 for densities beyond the square root of float's range.
+/// Source: Veach 1997, section 9.2.4 (power heuristic, exponent 2)
+[[nodiscard]] constexpr float power_heuristic(float a, float b) noexcept {
+    if (!(a > 0.0f)) return 0.0f;
+    const float r = b / a;
+    return 1.0f / (1.0f + r * r);
+}
+
+/// Radiance that leaves a surface toward wo. Zero from behind.
+template <EffectSet kEffects>
+[[nodiscard]] Vec3f emitted(const Scene& scene, const Surface& s, Vec3f wo) noexcept {
+    const std::int32_t light = scene.geometries[s.geometry].light;
+    if (light < 0 || !(dot(wo, s.shading.n) > 0.0f)) return Vec3f{0.0f};
+    return texture_value<kEffects>(scene, scene.lights[static_cast<std::size_t>(light)].radiance, s.uv);
+}
+
+template <EffectSet kEffects>
+[[nodiscard]] Vec3f environment_radiance(const Scene& scene, Vec3f d) noexcept {
+    if (scene.environment_light < 0) return Vec3f{0.0f};
+    if (scene.environment_map) return scene.environment_map->radiance(d);
+    return scene.lights[static_cast<std::size_t>(scene.environment_light)].radiance.constant;
+}
+
+/// A sphere is sampled by the cone that it fills, from outside; one that shines inwards, by area.
+[[nodiscard]] inline bool sampled_by_cone(const Scene& scene, const Light& light) noexcept { return !scene.geometries[light.geometry].flip; }
+
+/// 1 - cos of the half angle of the cone that a sphere fills seen from p; 0 from inside.
+[[nodiscard]] inline float sphere_cone(const AnalyticSphere& sphere, Vec3f p) noexcept {
+    const Vec3d to_center = sphere.center - to_double(p);
+    const double d2 = dot(to_center, to_center), r2 = sphere.radius * sphere.radius;
+    if (!(d2 > r2)) return 0.0f;
+    const double sin2 = r2 / d2;
+    return static_cast<float>(sin2 / (1.0 + std::sqrt(1.0 - sin2)));
+}
+
+/// Density per steradian of a point at distance^2 whose normal makes |cos| with the direction.
+[[nodiscard]] inline float area_to_solid_angle(float distance2, float abs_cos, float area) noexcept {
+    return abs_cos > 0.0f ? distance2 / (abs_cos * area) : 0.0f;
+}
+
+/// Density with which sample_light would have drawn the direction from p to the surface s of this light.
+template <EffectSet kEffects>
+[[nodiscard]] float light_pdf(const Scene& scene, const Light& light, Vec3f p, const Surface& s, Vec3f wi) noexcept {
+    if constexpr (kEffects.has(Effect::sphere_light))
+        if (light.kind == LightKind::sphere && sampled_by_cone(scene, light)) {
+            const float h = sphere_cone(scene.spheres[scene.geometries[light.geometry].first], p);
+            return h > 0.0f ? 1.0f / (2.0f * kPi * h) : 0.0f;
+        }
+    const Vec3f d = s.p - p;
+    return area_to_solid_angle(dot(d, d), std::fabs(dot(s.ng, wi)), light.area);
+}
+
+template <EffectSet kEffects>
+[[nodiscard]] float environment_pdf(const Scene& scene, Vec3f d) noexcept {
+    return scene.environment_map ? scene.environment_map->pdf(d) : 0.25f * kInvPi;
+}
+
+namespace detail {
+
+/// Completes a sample whose point on the light is known.
+template <EffectSet kEffects>
+[[nodiscard]] LightSample toward(const Scene& scene, const Light& light, const Surface& s, Vec3f p, float pdf_cone) noexcept {
+    const Vec3f d = s.p - p;
+    const float d2 = dot(d, d);
+    if (!(d2 > 0.0f)) return {};
+    LightSample out;
+    out.wi = d * (1.0f / std::sqrt(d2));
+    if (!(dot(out.wi, s.shading.n) < 0.0f)) return {};
+    out.pdf_w = pdf_cone > 0.0f ? pdf_cone : area_to_solid_angle(d2, std::fabs(dot(s.ng, out.wi)), light.area);
+    out.radiance = texture_value<kEffects>(scene, light.radiance, s.uv);
+    out.target = offset_origin(s.p, s.p_error, s.ng, -d);
+    return out;
+}
+
+}  // namespace detail
+
+/// Draws a direction toward a light as seen from p.
+template <EffectSet kEffects>
+[[nodiscard]] LightSample sample_light(const Scene& scene, const Light& light, Vec3f p, glm::vec2 u) noexcept {
+    if constexpr (kEffects.has(Effect::point_light))
+        if (light.kind == LightKind::point) {
+            const Vec3f d = light.corner - p;
+            const float d2 = dot(d, d);
+            if (!(d2 > 0.0f)) return {};
+            return {d * (1.0f / std::sqrt(d2)), light.radiance.constant / d2, 1.0f, true, false, light.corner};
+        }
+    if constexpr (kEffects.has(Effect::environment))
+        if (light.kind == LightKind::environment) {
+            if (!scene.environment_map) {
+                const Vec3f d = square_to_sphere(u);
+                return {d, light.radiance.constant, 0.25f * kInvPi, false, true, d};
+            }
+            const EnvironmentMap::Sample e = scene.environment_map->sample(u);
+            if (!(e.pdf_w > 0.0f)) return {};
+            return {e.d, scene.environment_map->radiance(e.d), e.pdf_w, false, true, e.d};
+        }
+    if constexpr (kEffects.has(Effect::sphere_light))
+        if (light.kind == LightKind::sphere) {
+            const AnalyticSphere& sphere = scene.spheres[scene.geometries[light.geometry].first];
+            if (!sampled_by_cone(scene, light)) {
+                const Vec3f q = square_to_sphere(u);
+                return detail::toward<kEffects>(scene, light, sphere_surface(scene, light.geometry, to_double(q)), p, 0.0f);
+            }
+            const float h = sphere_cone(sphere, p);
+            if (!(h > 0.0f)) return {};
+            const Vec3d to_center = sphere.center - to_double(p);
+            const double distance = std::sqrt(dot(to_center, to_center));
+            const Vec3f local = square_to_cone(u, h);
+            const Vec3f wi = Frame::from_normal(to_float(to_center * (1.0 / distance))).to_world(local);
+            // The nearer intersection along wi, by the law of sines about the centre; grazing directions touch at one point.
+            const double cos_d = local.z, sin2_d = static_cast<double>(local.x) * local.x + static_cast<double>(local.y) * local.y;
+            const double half_chord2 = sphere.radius * sphere.radius - distance * distance * sin2_d;
+            const double t = distance * cos_d - std::sqrt(half_chord2 > 0.0 ? half_chord2 : 0.0);
+            const Surface s = sphere_surface(scene, light.geometry, to_double(wi) * t - to_center);
+            LightSample out;
+            out.wi = wi;
+            out.pdf_w = 1.0f / (2.0f * kPi * h);
+            out.radiance = texture_value<kEffects>(scene, light.radiance, s.uv);
+            out.target = offset_origin(s.p, s.p_error, s.ng, s.ng);
+            return out;
+        }
+    if constexpr (kEffects.has(Effect::area_light)) {
+        if (light.kind == LightKind::parallelogram || light.kind == LightKind::mesh) {
+            std::uint32_t triangle = 0;
+            glm::vec2 b;
+            if (light.kind == LightKind::parallelogram) {
+                // Two triangles (0, 1, 2) and (0, 2, 3) over corners in circular order: the square maps without a seam.
+                if (u.x >= u.y) {
+                    b = {u.x - u.y, u.y};
+                } else {
+                    triangle = 1;
+                    b = {u.x, u.y - u.x};
+                }
+            } else {
+                if (light.triangles.size() > 1) {
+                    const DiscreteSample t = light.triangles.sample(u.x);
+                    triangle = t.index;
+                    u.x = t.u;
+                }
+                b = square_to_triangle(u);
+            }
+            const Surface s = triangle_surface(scene, light.geometry, scene.geometries[light.geometry].first + triangle, b);
+            return detail::toward<kEffects>(scene, light, s, p, 0.0f);
+        }
+        if constexpr (kEffects.has(Effect::analytic_shape))
+            if (light.kind == LightKind::disk) {
+                const glm::vec2 q = square_to_disk(u);
+                return detail::toward<kEffects>(scene, light, disk_surface(scene, light.geometry, q.x, q.y), p, 0.0f);
+            }
+    }
+    return {};
+}
+
+}  // namespace koksma

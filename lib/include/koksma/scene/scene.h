@@ -1,0 +1,94 @@
+#pragma once
+// A scene ready to be rendered: immutable, in float, re-centred on its camera.
+
+#include <koksma/plan/effect.h>
+#include <koksma/scene/accelerator.h>
+#include <koksma/scene/bsdf/bsdf.h>
+#include <koksma/scene/description.h>
+#include <koksma/scene/distribution.h>
+#include <koksma/scene/environment_map.h>
+#include <koksma/scene/texture.h>
+
+#include <optional>
+#include <vector>
+
+namespace koksma {
+
+/// One side of a material.
+struct MaterialSide {
+    BsdfKind kind = BsdfKind::none;
+    bool perfect = false, ggx = false;
+    TextureRef reflectance, alpha_u, alpha_v;
+    Vec3f transmittance{1.0f}, eta{1.0f}, k{0.0f};
+};
+
+/// Indices into Scene::sides. A two-sided material shows `back` from behind; the others show `front` to both sides
+/// (which, for all but the dielectric, is black from behind).
+struct MaterialSides {
+    std::uint32_t front = 0, back = 0;
+    bool two_sided = false;
+};
+
+enum class GeometryKind : std::uint8_t { mesh, sphere, disk };
+
+/// One per Embree geometry.
+struct GeometryRecord {
+    GeometryKind kind = GeometryKind::mesh;
+    bool flip = false;         ///< normals point the other way
+    bool has_normals = false, has_uvs = false;
+    std::uint32_t first = 0;   ///< mesh: its first entry in Scene::triangles; otherwise the index in spheres or disks
+    std::uint32_t material = 0;
+    std::int32_t light = -1;   ///< index into Scene::lights
+};
+
+enum class LightKind : std::uint8_t { mesh, parallelogram, sphere, disk, point, environment };
+
+struct Light {
+    LightKind kind = LightKind::point;
+    std::uint32_t geometry = 0;    ///< of surfaces
+    TextureRef radiance;           ///< or intensity, or constant environment
+    Vec3f corner, edge_u, edge_v;  ///< parallelogram; `corner` is also the position of a point light
+    float area = 0.0f;             ///< m^2
+    DiscreteDistribution triangles;  ///< of a mesh, by area
+};
+
+/// Camera in the re-centred world: it sits at the origin.
+struct CompiledCamera {
+    Vec3f right, up, forward;        ///< unit; images of the camera's x, y, z
+    double half_width = 1.0, half_height = 1.0;  ///< of the film at distance 1
+    double offset_x = 0.0, offset_y = 0.0;
+    float near_clip = 1e-2f, far_clip = 1e4f;
+    float aperture_radius = 0.0f, focus_distance = 1.0f;
+};
+
+/// Everything that a kernel reads. Built by compile(); nothing changes it afterwards.
+struct Scene {
+    SceneDescription description;  ///< meshes and images are shared with it, not copied
+    CompiledCamera camera;
+    FilmSettings film;
+    EffectSet effects;             ///< what it calls for, roulette and settings aside
+
+    std::vector<Texture> textures;
+    std::vector<MaterialSide> sides;
+    std::vector<MaterialSides> materials;
+
+    std::vector<GeometryRecord> geometries;
+    std::vector<Vec3f> positions, normals;
+    std::vector<glm::vec2> uvs;
+    std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices into positions, normals and uvs alike
+    std::vector<AnalyticSphere> spheres;
+    std::vector<AnalyticDisk> disks;
+    Accelerator accelerator;
+
+    std::vector<Light> lights;
+    DiscreteDistribution light_choice;  ///< by power
+    std::int32_t environment_light = -1;
+    std::optional<EnvironmentMap> environment_map;
+    float bounding_radius = 1.0f;
+};
+
+/// Checks, re-centres, flattens and builds the BVH.
+/// @throws Error "file:line:column: ..." for what cannot be rendered
+[[nodiscard]] Scene compile(const SceneDescription& description);
+
+}  // namespace koksma

@@ -1,0 +1,68 @@
+#include <koksma/film/film.h>
+#include <koksma/sampling/error.h>
+
+#include <cmath>
+
+namespace koksma {
+
+const char* name(InvalidSample::Kind kind) noexcept {
+    switch (kind) {
+        case InvalidSample::Kind::nan: return "NaN";
+        case InvalidSample::Kind::infinite: return "infinite";
+        case InvalidSample::Kind::negative: break;
+    }
+    return "negative";
+}
+
+bool is_invalid(Vec3f radiance, InvalidSample::Kind& kind) noexcept {
+    const float v[3] = {radiance.x, radiance.y, radiance.z};
+    bool bad = false;
+    for (const float c : v) {
+        if (c >= 0.0f && std::isfinite(c)) continue;
+        bad = true;
+        kind = std::isnan(c) ? InvalidSample::Kind::nan : (std::isinf(c) ? InvalidSample::Kind::infinite : InvalidSample::Kind::negative);
+        if (kind == InvalidSample::Kind::nan) break;
+    }
+    return bad;
+}
+
+void Film::add(Pixel pixel, std::span<const Vec3f> radiance) noexcept {
+    Vec3d sum;
+    for (const Vec3f& r : radiance) sum += to_double(r);
+    sums_[index(pixel)] += sum;
+    counts_[index(pixel)] += radiance.size();
+}
+
+void Film::merge(const Film& later) {
+    if (rect_.x != later.rect_.x || rect_.y != later.rect_.y || rect_.width != later.rect_.width || rect_.height != later.rect_.height)
+        throw Error("films of different rectangles cannot be merged");
+    for (std::size_t i = 0; i < sums_.size(); ++i) {
+        sums_[i] += later.sums_[i];
+        counts_[i] += later.counts_[i];
+    }
+}
+
+Vec3d Film::mean(Pixel pixel) const noexcept {
+    const std::size_t i = index(pixel);
+    return counts_[i] == 0 ? Vec3d{} : sums_[i] / static_cast<double>(counts_[i]);
+}
+
+std::vector<float> Film::image() const {
+    std::vector<float> out;
+    out.reserve(3 * sums_.size());
+    for (std::int32_t y = 0; y < rect_.height; ++y)
+        for (std::int32_t x = 0; x < rect_.width; ++x) {
+            const Vec3f m = to_float(mean({rect_.x + x, rect_.y + y}));
+            out.insert(out.end(), {m.x, m.y, m.z});
+        }
+    return out;
+}
+
+Vec3d Film::mean() const noexcept {
+    Vec3d sum;
+    for (std::int32_t y = 0; y < rect_.height; ++y)
+        for (std::int32_t x = 0; x < rect_.width; ++x) sum += mean({rect_.x + x, rect_.y + y});
+    return sums_.empty() ? sum : sum / static_cast<double>(sums_.size());
+}
+
+}  // namespace koksma

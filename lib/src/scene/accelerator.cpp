@@ -1,0 +1,181 @@
+#include <koksma/sampling/error.h>
+#include <koksma/scene/accelerator.h>
+
+#include "embree.h"
+
+#include <deque>
+#include <string>
+#include <variant>
+
+namespace koksma {
+
+namespace {
+
+/// Embree keeps coordinates below this; it drops, in silence, a triangle with a larger one.
+constexpr float kLargestCoordinate = 1.844e18f;
+
+struct UserShape {
+    std::variant<AnalyticSphere, AnalyticDisk> shape;
+    unsigned geometry = 0;
+};
+
+float first_hit(const UserShape& user, const Ray& ray) noexcept {
+    const double t = std::holds_alternative<AnalyticSphere>(user.shape) ? intersect(std::get<AnalyticSphere>(user.shape), ray)
+                                                                        : intersect(std::get<AnalyticDisk>(user.shape), ray).t;
+    return static_cast<float>(t);
+}
+
+Ray ray_of(RTCRayN* rays, unsigned n, unsigned i) noexcept {
+    return {{RTCRayN_org_x(rays, n, i), RTCRayN_org_y(rays, n, i), RTCRayN_org_z(rays, n, i)},
+            {RTCRayN_dir_x(rays, n, i), RTCRayN_dir_y(rays, n, i), RTCRayN_dir_z(rays, n, i)},
+            RTCRayN_tnear(rays, n, i),
+            RTCRayN_tfar(rays, n, i)};
+}
+
+void intersect_user(const RTCIntersectFunctionNArguments* args) {
+    const auto& user = *static_cast<const UserShape*>(args->geometryUserPtr);
+    RTCRayN* rays = RTCRayHitN_RayN(args->rayhit, args->N);
+    RTCHitN* hits = RTCRayHitN_HitN(args->rayhit, args->N);
+    for (unsigned i = 0; i < args->N; ++i) {
+        if (args->valid[i] == 0) continue;
+        const float t = first_hit(user, ray_of(rays, args->N, i));
+        if (!(t < RTCRayN_tfar(rays, args->N, i))) continue;
+        RTCRayN_tfar(rays, args->N, i) = t;
+        RTCHitN_geomID(hits, args->N, i) = user.geometry;
+        RTCHitN_primID(hits, args->N, i) = 0;
+    }
+}
+
+void occluded_user(const RTCOccludedFunctionNArguments* args) {
+    const auto& user = *static_cast<const UserShape*>(args->geometryUserPtr);
+    for (unsigned i = 0; i < args->N; ++i) {
+        if (args->valid[i] == 0) continue;
+        const Ray ray = ray_of(args->ray, args->N, i);
+        if (first_hit(user, ray) < ray.t_far) RTCRayN_tfar(args->ray, args->N, i) = -kInfinity;
+    }
+}
+
+void bounds_user(const RTCBoundsFunctionArguments* args) {
+    const auto& user = *static_cast<const UserShape*>(args->geometryUserPtr);
+    Vec3d center, extent;
+    if (const auto* sphere = std::get_if<AnalyticSphere>(&user.shape)) {
+        center = sphere->center;
+        extent = Vec3d(sphere->radius);
+    } else {
+        const auto& disk = std::get<AnalyticDisk>(user.shape);
+        center = disk.center;
+        extent = {std::hypot(disk.s.x, disk.t.x), std::hypot(disk.s.y, disk.t.y), std::hypot(disk.s.z, disk.t.z)};
+    }
+    // Outward by a few roundings: the box is in float, the shape in double.
+    const auto low = [](double c, double e) { return next_float(next_float(static_cast<float>(c - e), false), false); };
+    const auto high = [](double c, double e) { return next_float(next_float(static_cast<float>(c + e), true), true); };
+    args->bounds_o->lower_x = low(center.x, extent.x);
+    args->bounds_o->lower_y = low(center.y, extent.y);
+    args->bounds_o->lower_z = low(center.z, extent.z);
+    args->bounds_o->upper_x = high(center.x, extent.x);
+    args->bounds_o->upper_y = high(center.y, extent.y);
+    args->bounds_o->upper_z = high(center.z, extent.z);
+}
+
+RTCRay embree_ray(const Ray& ray) noexcept {
+    RTCRay r{};
+    r.org_x = ray.o.x;
+    r.org_y = ray.o.y;
+    r.org_z = ray.o.z;
+    r.dir_x = ray.d.x;
+    r.dir_y = ray.d.y;
+    r.dir_z = ray.d.z;
+    r.tnear = ray.t_near;
+    r.tfar = ray.t_far;
+    r.mask = ~0u;
+    return r;
+}
+
+}  // namespace
+
+struct Accelerator::Impl {
+    RTCDevice device = nullptr;
+    RTCScene scene = nullptr;
+    std::deque<UserShape> shapes;  // a deque: addresses are handed to Embree
+
+    Impl() {
+        // No "threads=": Embree would cap TBB for the whole process.
+        device = rtcNewDevice(nullptr);
+        if (device == nullptr) throw Error("Embree cannot make a device (code " + std::to_string(rtcGetDeviceError(nullptr)) + ")");
+        scene = rtcNewScene(device);
+        rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+        rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_HIGH);
+    }
+    ~Impl() {
+        rtcReleaseScene(scene);
+        rtcReleaseDevice(device);
+    }
+    Impl(const Impl&) = delete;
+    Impl& operator=(const Impl&) = delete;
+
+    void attach(RTCGeometry geometry) {
+        rtcSetGeometryMask(geometry, ~0u);  // Embree 4 defaults to 1, Embree 3 to all
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometry(scene, geometry);
+        rtcReleaseGeometry(geometry);
+        check();
+    }
+    void add_user(UserShape shape) {
+        RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
+        shapes.push_back(std::move(shape));
+        rtcSetGeometryUserPrimitiveCount(geometry, 1);
+        rtcSetGeometryUserData(geometry, &shapes.back());
+        rtcSetGeometryBoundsFunction(geometry, bounds_user, nullptr);
+        rtcSetGeometryIntersectFunction(geometry, intersect_user);
+        rtcSetGeometryOccludedFunction(geometry, occluded_user);
+        rtcCommitGeometry(geometry);
+        shapes.back().geometry = rtcAttachGeometry(scene, geometry);
+        rtcReleaseGeometry(geometry);
+        check();
+    }
+    void check() const {
+        if (const RTCError code = rtcGetDeviceError(device); code != RTC_ERROR_NONE)
+            throw Error(code == RTC_ERROR_OUT_OF_MEMORY ? "Embree is out of memory" : "Embree reports error " + std::to_string(code));
+    }
+};
+
+Accelerator::Accelerator() : impl_(std::make_unique<Impl>()) {}
+Accelerator::~Accelerator() = default;
+Accelerator::Accelerator(Accelerator&&) noexcept = default;
+Accelerator& Accelerator::operator=(Accelerator&&) noexcept = default;
+
+void Accelerator::add_mesh(std::span<const Vec3f> vertices, std::span<const std::array<std::uint32_t, 3>> triangles) {
+    for (const Vec3f& v : vertices)
+        if (!(max_component(abs(v)) < kLargestCoordinate)) throw Error("a vertex is farther from the camera than 1.8e18, or not finite");
+    RTCGeometry geometry = rtcNewGeometry(impl_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, vertices.data(), 0, sizeof(Vec3f), vertices.size());
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, triangles.data(), 0, sizeof(triangles[0]),
+                               triangles.size());
+    impl_->attach(geometry);
+}
+
+void Accelerator::add_sphere(const AnalyticSphere& sphere) { impl_->add_user({sphere}); }
+void Accelerator::add_disk(const AnalyticDisk& disk) { impl_->add_user({disk}); }
+
+void Accelerator::commit() {
+    rtcCommitScene(impl_->scene);
+    impl_->check();
+}
+
+Hit Accelerator::intersect(const Ray& ray) const noexcept {
+    RTCRayHit rh;
+    rh.ray = embree_ray(ray);
+    rh.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    embree::intersect1(impl_->scene, rh);
+    return {rh.hit.geomID, rh.hit.primID};
+}
+
+bool Accelerator::occluded(const Ray& ray) const noexcept {
+    RTCRay r = embree_ray(ray);
+    embree::occluded1(impl_->scene, r);
+    return r.tfar < 0.0f;
+}
+
+const char* Accelerator::version() noexcept { return "Embree " RTC_VERSION_STRING; }
+
+}  // namespace koksma

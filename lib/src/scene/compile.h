@@ -1,0 +1,21 @@
+#pragma once
+// The steps of compile(), in the order in which they run.
+
+#include <koksma/scene/scene.h>
+
+namespace koksma::detail {
+
+/// Fills sides and materials; adds the effects of the materials that shapes use.
+void compile_materials(Scene& scene);
+
+/// Fills geometry arrays, one GeometryRecord per shape, relative to the camera; no BVH yet.
+/// @param origin  world position of the camera
+void compile_shapes(Scene& scene, glm::dvec3 origin);
+
+/// Fills lights, their choice by power, and the environment. Needs the geometry.
+void compile_lights(Scene& scene, glm::dvec3 origin);
+
+/// A constant stays a constant; anything else becomes an entry of Scene::textures.
+[[nodiscard]] TextureRef texture_ref(Scene& scene, const Texture& texture);
+
+}  // namespace koksma::detail

@@ -1,0 +1,130 @@
+#include <koksma/sampling/error.h>
+
+#include "compile.h"
+
+#include <glm/geometric.hpp>
+
+#include <cmath>
+#include <numbers>
+
+namespace koksma::detail {
+
+namespace {
+
+constexpr double kPiDouble = std::numbers::pi;
+
+double mean_luminance(const Texture& t) { return luminance(mean(t)); }
+
+/// Twice the area times the normal, in double.
+Vec3d area_vector(const Scene& scene, const std::array<std::uint32_t, 3>& t) {
+    const Vec3d v0 = to_double(scene.positions[t[0]]);
+    return cross(to_double(scene.positions[t[1]]) - v0, to_double(scene.positions[t[2]]) - v0);
+}
+
+std::size_t triangle_end(const Scene& scene, std::size_t geometry) {
+    for (std::size_t j = geometry + 1; j < scene.geometries.size(); ++j)
+        if (scene.geometries[j].kind == GeometryKind::mesh) return scene.geometries[j].first;
+    return scene.triangles.size();
+}
+
+/// Kind, area and sampling data of a surface that emits. @return its area in m^2
+double make_surface_light(const Scene& scene, const Shape& shape, std::size_t geometry, Light& light) {
+    const GeometryRecord& g = scene.geometries[geometry];
+    if (g.kind == GeometryKind::sphere) {
+        light.kind = LightKind::sphere;
+        const double r = scene.spheres[g.first].radius;
+        return 4.0 * kPiDouble * r * r;
+    }
+    if (g.kind == GeometryKind::disk) {
+        light.kind = LightKind::disk;
+        const AnalyticDisk& disk = scene.disks[g.first];
+        const double across = length(cross(disk.s, disk.t));
+        // An ellipse is sampled uniformly only up to its shear: x, y are uniform, so is the image under an affine map.
+        return kPiDouble * across;
+    }
+    std::vector<double> areas;
+    double area = 0.0;
+    for (std::size_t t = g.first; t < triangle_end(scene, geometry); ++t) {
+        areas.push_back(0.5 * length(area_vector(scene, scene.triangles[t])));
+        area += areas.back();
+    }
+    if (std::holds_alternative<RectangleShape>(shape.geometry)) {
+        const Vec3d n = area_vector(scene, scene.triangles[g.first]);
+        const Vec3d m = area_vector(scene, scene.triangles[g.first + 1]);
+        // Affine images of a square are parallelograms: both halves have one area.
+        if (std::fabs(length(n) - length(m)) <= 1e-3 * length(n)) {
+            light.kind = LightKind::parallelogram;
+            return area;
+        }
+    }
+    light.kind = LightKind::mesh;
+    light.triangles = DiscreteDistribution(areas);
+    return area;
+}
+
+float bounding_radius(const Scene& scene) {
+    double r2 = 0.0;
+    const auto grow = [&](Vec3d p, double radius) {
+        const double d = length(p) + radius;
+        if (d * d > r2) r2 = d * d;
+    };
+    for (std::size_t i = 0; i + 1 < scene.positions.size(); ++i) grow(to_double(scene.positions[i]), 0.0);
+    for (const AnalyticSphere& s : scene.spheres) grow(s.center, s.radius);
+    for (const AnalyticDisk& d : scene.disks) grow(d.center, length(d.s) + length(d.t));
+    return r2 > 0.0 ? static_cast<float>(std::sqrt(r2)) : 1.0f;
+}
+
+}  // namespace
+
+void compile_lights(Scene& scene, glm::dvec3 origin) {
+    const SceneDescription& d = scene.description;
+    scene.bounding_radius = bounding_radius(scene);
+    std::vector<double> powers;
+
+    for (std::size_t i = 0; i < d.shapes.size(); ++i) {
+        if (!d.shapes[i].emission) continue;
+        Light light;
+        light.geometry = static_cast<std::uint32_t>(i);
+        const double area = make_surface_light(scene, d.shapes[i], i, light);
+        light.area = static_cast<float>(area);
+        if (!(light.area > 0.0f) || !std::isfinite(light.area))
+            throw Error(d.shapes[i].where.text() + ": a light of area " + std::to_string(area) + " m^2; it must be positive (and at least 1e-37)");
+        light.radiance = texture_ref(scene, d.shapes[i].emission->radiance);
+        scene.geometries[i].light = static_cast<std::int32_t>(scene.lights.size());
+        scene.effects |= {Effect::area_light};
+        if (light.kind == LightKind::sphere) scene.effects |= {Effect::sphere_light};
+        powers.push_back(kPiDouble * area * mean_luminance(d.shapes[i].emission->radiance));
+        scene.lights.push_back(std::move(light));
+    }
+    for (const PointLight& p : d.point_lights) {
+        Light light;
+        light.kind = LightKind::point;
+        light.corner = Vec3f(glm::vec3(p.position - origin));
+        light.radiance.constant = p.intensity;
+        scene.effects |= {Effect::point_light};
+        powers.push_back(4.0 * kPiDouble * luminance(p.intensity));
+        scene.lights.push_back(std::move(light));
+    }
+    if (d.environment) {
+        Light light;
+        light.kind = LightKind::environment;
+        if (const auto* map = std::get_if<MapEnvironment>(&*d.environment)) {
+            scene.environment_map.emplace(*map);
+            light.radiance.constant = scene.environment_map->mean_radiance();
+        } else {
+            light.radiance.constant = std::get<ConstantEnvironment>(*d.environment).radiance;
+        }
+        scene.environment_light = static_cast<std::int32_t>(scene.lights.size());
+        scene.effects |= {Effect::environment};
+        const double r = scene.bounding_radius;
+        powers.push_back(4.0 * kPiDouble * kPiDouble * r * r * luminance(light.radiance.constant));
+        scene.lights.push_back(std::move(light));
+    }
+    // A light whose luminance is zero in spite of some colour still needs a chance; a black one gets none.
+    for (std::size_t i = 0; i < powers.size(); ++i)
+        if (!(powers[i] > 0.0) && max_component(scene.lights[i].radiance.constant) > 0.0f) powers[i] = 1e-30;
+    scene.light_choice = DiscreteDistribution(powers);
+    if (scene.lights.size() > 1) scene.effects |= {Effect::light_choice};
+}
+
+}  // namespace koksma::detail

@@ -1,0 +1,71 @@
+#include "compile.h"
+
+namespace koksma::detail {
+
+namespace {
+
+struct SideCompiler {
+    Scene& scene;
+    MaterialSide side{};
+
+    void conductor(const Conductor& c) {
+        side.perfect = c.perfect;
+        side.eta = c.eta;
+        side.k = c.k;
+        side.reflectance.constant = c.specular_reflectance;
+    }
+    void operator()(const Diffuse& d) {
+        side.kind = BsdfKind::diffuse;
+        side.reflectance = texture_ref(scene, d.reflectance);
+        scene.effects |= {Effect::diffuse};
+    }
+    void operator()(const Dielectric& d) {
+        side.kind = BsdfKind::dielectric;
+        side.eta = Vec3f(d.int_ior / d.ext_ior);
+        side.reflectance.constant = d.specular_reflectance;
+        side.transmittance = d.specular_transmittance;
+        scene.effects |= {Effect::dielectric};
+    }
+    void operator()(const Conductor& c) {
+        side.kind = BsdfKind::conductor;
+        conductor(c);
+        scene.effects |= {Effect::specular};
+    }
+    void operator()(const RoughConductor& c) {
+        side.kind = BsdfKind::rough_conductor;
+        conductor(c.base);
+        side.ggx = c.distribution == RoughConductor::Distribution::ggx;
+        side.alpha_u = texture_ref(scene, c.alpha_u);
+        side.alpha_v = texture_ref(scene, c.alpha_v);
+        scene.effects |= {Effect::glossy};
+    }
+};
+
+std::uint32_t add_side(Scene& scene, const OneSidedMaterial& material) {
+    SideCompiler compiler{scene};
+    std::visit(compiler, material);
+    scene.sides.push_back(compiler.side);
+    return static_cast<std::uint32_t>(scene.sides.size() - 1);
+}
+
+}  // namespace
+
+void compile_materials(Scene& scene) {
+    const SceneDescription& d = scene.description;
+    // A material that no shape uses costs nothing: it calls for no effect.
+    std::vector<bool> used(d.materials.size(), false);
+    for (const Shape& s : d.shapes) used[s.material] = true;
+    for (std::size_t i = 0; i < d.materials.size(); ++i) {
+        const Material& m = d.materials[i];
+        MaterialSides sides;
+        if (used[i]) {
+            sides.front = sides.back = add_side(scene, m.front);
+            sides.two_sided = m.two_sided;
+            if (m.back) sides.back = add_side(scene, *m.back);
+            if (m.two_sided) scene.effects |= {Effect::two_sided};
+        }
+        scene.materials.push_back(sides);
+    }
+}
+
+}  // namespace koksma::detail

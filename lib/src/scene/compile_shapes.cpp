@@ -1,0 +1,125 @@
+#include <koksma/sampling/error.h>
+
+#include "compile.h"
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include <cmath>
+
+namespace koksma::detail {
+
+namespace {
+
+/// Corners in circular order, so that the unit square maps onto the two triangles without a seam (light sampling).
+MeshData rectangle_mesh() {
+    return {{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}, {}, {{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {{0, 1, 2}, {0, 2, 3}}};
+}
+
+/// Four vertices a face, each face with the whole unit square of UVs, oriented as Mitsuba's cube.
+MeshData cube_mesh() {
+    constexpr float kCorners[6][4][3] = {
+        {{1, -1, -1}, {1, -1, 1}, {-1, -1, 1}, {-1, -1, -1}}, {{1, 1, -1}, {-1, 1, -1}, {-1, 1, 1}, {1, 1, 1}},
+        {{1, -1, -1}, {1, 1, -1}, {1, 1, 1}, {1, -1, 1}},     {{1, -1, 1}, {1, 1, 1}, {-1, 1, 1}, {-1, -1, 1}},
+        {{-1, -1, 1}, {-1, 1, 1}, {-1, 1, -1}, {-1, -1, -1}}, {{1, 1, -1}, {1, -1, -1}, {-1, -1, -1}, {-1, 1, -1}}};
+    MeshData mesh;
+    for (const auto& face : kCorners) {
+        const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+        for (const auto& c : face) mesh.positions.emplace_back(c[0], c[1], c[2]);
+        for (const glm::vec2 uv : {glm::vec2(0, 1), glm::vec2(1, 1), glm::vec2(1, 0), glm::vec2(0, 0)}) mesh.uvs.push_back(uv);
+        mesh.triangles.push_back({first, first + 1, first + 2});
+        mesh.triangles.push_back({first + 3, first, first + 2});
+    }
+    return mesh;
+}
+
+class ShapeCompiler {
+public:
+    ShapeCompiler(Scene& scene, const Shape& shape, glm::dvec3 origin) : scene_(scene), shape_(shape), origin_(origin) {}
+
+    void operator()(const MeshShape& m) { add_mesh(*m.data); }
+    void operator()(const RectangleShape&) { add_mesh(rectangle_mesh()); }
+    void operator()(const CubeShape&) { add_mesh(cube_mesh()); }
+    void operator()(const DiskShape&) {
+        const glm::dmat4& m = shape_.to_world;
+        AnalyticDisk disk{vec(glm::dvec3(m[3]) - origin_), vec(glm::dvec3(m[0])), vec(glm::dvec3(m[1]))};
+        if (!(length(cross(disk.s, disk.t)) > 0.0)) throw Error(shape_.where.text() + ": the disk has no area (its to_world is singular)");
+        GeometryRecord g = record(GeometryKind::disk);
+        g.flip = g.flip != (glm::dot(glm::cross(glm::dvec3(m[0]), glm::dvec3(m[1])), glm::transpose(glm::inverse(glm::dmat3(m)))[2]) < 0.0);
+        g.first = static_cast<std::uint32_t>(scene_.disks.size());
+        scene_.disks.push_back(disk);
+        scene_.geometries.push_back(g);
+        scene_.effects |= {Effect::analytic_shape};
+    }
+    void operator()(const SphereShape& s) {
+        const glm::dmat4& m = shape_.to_world;
+        const double scale = glm::length(glm::dvec3(m[0]));
+        AnalyticSphere sphere{vec(glm::dvec3(m * glm::dvec4(s.center, 1.0)) - origin_), s.radius * scale};
+        if (!(sphere.radius > 0.0) || !std::isfinite(sphere.radius))
+            throw Error(shape_.where.text() + ": the sphere's radius is " + std::to_string(sphere.radius) + "; it must be positive");
+        GeometryRecord g = record(GeometryKind::sphere);
+        g.first = static_cast<std::uint32_t>(scene_.spheres.size());
+        scene_.spheres.push_back(sphere);
+        scene_.geometries.push_back(g);
+        scene_.effects |= {Effect::analytic_shape};
+    }
+
+private:
+    static Vec3d vec(glm::dvec3 v) { return {v.x, v.y, v.z}; }
+
+    GeometryRecord record(GeometryKind kind) const {
+        GeometryRecord g;
+        g.kind = kind;
+        g.flip = shape_.flip_normals;
+        g.material = shape_.material;
+        return g;
+    }
+
+    void add_mesh(const MeshData& mesh) {
+        GeometryRecord g = record(GeometryKind::mesh);
+        const glm::dmat4& m = shape_.to_world;
+        const glm::dmat3 linear(m);
+        const double det = glm::determinant(linear);
+        if (!(det != 0.0) || !std::isfinite(det)) throw Error(shape_.where.text() + ": the shape's to_world is singular");
+        // A mirroring transform turns the winding over; Mitsuba's normals are transformed as normals, so they do not turn.
+        g.flip = g.flip != (det < 0.0);
+        g.first = static_cast<std::uint32_t>(scene_.triangles.size());
+        g.has_uvs = !mesh.uvs.empty();
+        g.has_normals = !mesh.normals.empty() && !shape_.face_normals;
+        const auto base = static_cast<std::uint32_t>(scene_.positions.size());
+        for (const glm::vec3& p : mesh.positions)
+            scene_.positions.push_back(Vec3f(glm::vec3(glm::dvec3(m * glm::dvec4(glm::dvec3(p), 1.0)) - origin_)));
+        for (const auto& t : mesh.triangles) scene_.triangles.push_back({base + t[0], base + t[1], base + t[2]});
+        if (g.has_uvs) {
+            scene_.uvs.resize(base);
+            scene_.uvs.insert(scene_.uvs.end(), mesh.uvs.begin(), mesh.uvs.end());
+        }
+        if (g.has_normals) {
+            scene_.normals.resize(base);
+            const glm::dmat3 normal_matrix = glm::transpose(glm::inverse(linear));
+            const double side = det < 0.0 ? -1.0 : 1.0;  // the record's flip will turn them back
+            for (const glm::vec3& n : mesh.normals) {
+                const glm::dvec3 v = normal_matrix * glm::dvec3(n) * side;
+                const double len = glm::length(v);
+                scene_.normals.push_back(len > 0.0 ? Vec3f(glm::vec3(v / len)) : Vec3f(0.0f));
+            }
+            scene_.effects |= {Effect::shading_normals};
+        }
+        scene_.geometries.push_back(g);
+    }
+
+    Scene& scene_;
+    const Shape& shape_;
+    glm::dvec3 origin_;
+};
+
+}  // namespace
+
+void compile_shapes(Scene& scene, glm::dvec3 origin) {
+    for (const Shape& shape : scene.description.shapes) std::visit(ShapeCompiler(scene, shape, origin), shape.geometry);
+    // Arrays are parallel where they are used: pad the shorter ones to the vertex count.
+    if (!scene.uvs.empty()) scene.uvs.resize(scene.positions.size());
+    if (!scene.normals.empty()) scene.normals.resize(scene.positions.size(), Vec3f(0.0f));
+}
+
+}  // namespace koksma::detail

@@ -1,0 +1,152 @@
+#include "scene_hash.h"
+
+#include <bit>
+#include <map>
+#include <type_traits>
+
+namespace koksma::loader {
+namespace {
+
+/// Mixes 64 bits at a time with the finaliser of splitmix64 (Steele, Lea & Flood 2014, "Fast Splittable Pseudorandom Number Generators").
+/// Works on values, so it is the same on every machine; 0 and -0 are the same value.
+class Hasher {
+public:
+    void word(std::uint64_t w) {
+        h_ += w + 0x9E3779B97F4A7C15u;
+        h_ = (h_ ^ (h_ >> 30)) * 0xBF58476D1CE4E5B9u;
+        h_ = (h_ ^ (h_ >> 27)) * 0x94D049BB133111EBu;
+        h_ ^= h_ >> 31;
+    }
+    void number(double v) { word(std::bit_cast<std::uint64_t>(v + 0.0)); }
+    void floats(float a, float b) {
+        word(std::uint64_t{std::bit_cast<std::uint32_t>(a + 0.0f)} << 32 | std::bit_cast<std::uint32_t>(b + 0.0f));
+    }
+    void vec(const glm::vec3& v) { floats(v.x, v.y), floats(v.z, 0.0f); }
+    void vec(const glm::dvec3& v) { number(v.x), number(v.y), number(v.z); }
+    template <int N>
+    void matrix(const glm::mat<N, N, double, glm::defaultp>& m) {
+        for (int c = 0; c < N; ++c)
+            for (int r = 0; r < N; ++r) number(m[c][r]);
+    }
+    [[nodiscard]] std::uint64_t value() const noexcept { return h_; }
+
+private:
+    std::uint64_t h_ = 0;
+};
+
+class SceneHasher {
+public:
+    explicit SceneHasher(const SceneDescription& scene) : scene_(scene) {}
+
+    std::uint64_t run() {
+        h_.word(scene_.shapes.size());
+        for (const Shape& s : scene_.shapes) add(s);
+        h_.word(scene_.point_lights.size());
+        for (const PointLight& l : scene_.point_lights) h_.vec(l.position), h_.vec(l.intensity);
+        h_.word(scene_.environment ? 1 + scene_.environment->index() : 0);
+        if (scene_.environment) std::visit([this](const auto& e) { add(e); }, *scene_.environment);
+        add(scene_.camera);
+        h_.word(static_cast<std::uint64_t>(scene_.film.width)), h_.word(static_cast<std::uint64_t>(scene_.film.height));
+        h_.word(static_cast<std::uint64_t>(std::int64_t{scene_.integrator.max_depth}));
+        h_.word(scene_.integrator.hide_emitters);
+        return h_.value();
+    }
+
+private:
+    void add(const Shape& s) {
+        h_.word(s.geometry.index());
+        std::visit([this](const auto& g) { add(g); }, s.geometry);
+        h_.matrix<4>(s.to_world);
+        h_.word(s.flip_normals), h_.word(s.face_normals);
+        add(scene_.materials.at(s.material));
+        h_.word(s.emission.has_value());
+        if (s.emission) add(s.emission->radiance);
+    }
+    void add(const RectangleShape&) {}
+    void add(const DiskShape&) {}
+    void add(const CubeShape&) {}
+    void add(const SphereShape& s) { h_.vec(s.center), h_.number(s.radius); }
+    void add(const MeshShape& s) {
+        h_.word(once(s.data.get(), [&](Hasher& h) { add_mesh(h, *s.data); }));
+    }
+
+    static void add_mesh(Hasher& h, const MeshData& m) {
+        h.word(m.positions.size()), h.word(m.normals.size()), h.word(m.uvs.size()), h.word(m.triangles.size());
+        for (const auto& p : m.positions) h.vec(p);
+        for (const auto& n : m.normals) h.vec(n);
+        for (const auto& uv : m.uvs) h.floats(uv.x, uv.y);
+        for (const auto& t : m.triangles) h.word(std::uint64_t{t[0]} << 32 | t[1]), h.word(t[2]);
+    }
+
+    void add(const Image& image) {
+        h_.word(once(&image, [&](Hasher& h) {
+            h.word(static_cast<std::uint64_t>(image.width)), h.word(static_cast<std::uint64_t>(image.height));
+            for (const Rgb& t : image.texels) h.vec(t);
+        }));
+    }
+    void add(const Texture& t) {
+        h_.word(t.index());
+        std::visit([this](const auto& v) { add(v); }, t);
+    }
+    void add(const Rgb& c) { h_.vec(c); }
+    void add(const BitmapTexture& t) {
+        add(*t.image);
+        h_.word(static_cast<std::uint64_t>(t.filter)), h_.word(static_cast<std::uint64_t>(t.wrap));
+        h_.matrix<3>(t.to_uv);
+    }
+    void add(const CheckerboardTexture& t) { h_.vec(t.color0), h_.vec(t.color1), h_.matrix<3>(t.to_uv); }
+
+    void add(const Material& m) {
+        h_.word(m.two_sided);
+        add(m.front);
+        h_.word(m.back.has_value());
+        if (m.back) add(*m.back);
+    }
+    void add(const OneSidedMaterial& m) {
+        h_.word(m.index());
+        std::visit([this](const auto& v) { add(v); }, m);
+    }
+    void add(const Diffuse& d) { add(d.reflectance); }
+    void add(const Dielectric& d) { h_.floats(d.int_ior, d.ext_ior), h_.vec(d.specular_reflectance), h_.vec(d.specular_transmittance); }
+    void add(const Conductor& c) { h_.word(c.perfect), h_.vec(c.eta), h_.vec(c.k), h_.vec(c.specular_reflectance); }
+    void add(const RoughConductor& r) {
+        add(r.base);
+        h_.word(static_cast<std::uint64_t>(r.distribution));
+        add(r.alpha_u), add(r.alpha_v);
+    }
+
+    void add(const ConstantEnvironment& e) { h_.vec(e.radiance); }
+    void add(const MapEnvironment& e) {
+        add(*e.image);
+        h_.floats(e.scale, 0.0f), h_.matrix<4>(e.to_world);
+    }
+    void add(const Camera& c) {
+        h_.matrix<4>(c.to_world);
+        h_.number(c.fov_x_degrees), h_.number(c.near_clip), h_.number(c.far_clip);
+        h_.number(c.aperture_radius);
+        h_.number(c.aperture_radius > 0.0 ? c.focus_distance : 0.0);  // a pinhole has no focus
+        h_.number(c.principal_point_offset.x), h_.number(c.principal_point_offset.y);
+    }
+
+    /// The hash of something shared, computed on first sight.
+    template <class F>
+    std::uint64_t once(const void* shared, F&& add_contents) {
+        const auto [it, is_new] = known_.try_emplace(shared, 0);
+        if (is_new) {
+            Hasher h;
+            add_contents(h);
+            it->second = h.value();
+        }
+        return it->second;
+    }
+
+    const SceneDescription& scene_;
+    Hasher h_;
+    std::map<const void*, std::uint64_t> known_;
+};
+
+}  // namespace
+
+std::uint64_t scene_hash(const SceneDescription& scene) { return SceneHasher(scene).run(); }
+
+}  // namespace koksma::loader

@@ -1,0 +1,140 @@
+#include "shapes.h"
+
+#include "bsdfs.h"
+#include "emitters.h"
+#include "fail.h"
+#include "files.h"
+#include "mesh.h"
+#include "transforms.h"
+
+#include <koksma/scene/load.h>
+
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace koksma::loader {
+namespace {
+
+MeshFile& mesh_file(const std::filesystem::path& file, bool obj, const SourceLocation& where, Context& context) {
+    MeshFile& mesh = context.meshes[file.string()];
+    if (mesh.as_written) return mesh;
+    try {
+        mesh.as_written = std::make_shared<const MeshData>(obj ? load_obj(file) : load_ply(file));
+    } catch (const Error& e) {
+        fail(where, "{}", e.what());
+    }
+    return mesh;
+}
+
+std::shared_ptr<const MeshData> with_uv(MeshFile& file, bool flip) {
+    if (!flip || file.as_written->uvs.empty()) return file.as_written;
+    if (!file.flipped_uv) {
+        auto copy = std::make_shared<MeshData>(*file.as_written);
+        for (auto& uv : copy->uvs) uv.y = 1.0f - uv.y;
+        file.flipped_uv = std::move(copy);
+    }
+    return file.flipped_uv;
+}
+
+std::shared_ptr<const MeshData> without_normals(MeshFile& file, bool flip) {
+    auto mesh = with_uv(file, flip);
+    if (mesh->normals.empty()) return mesh;
+    auto& cached = file.no_normals[flip ? 1 : 0];
+    if (!cached) {
+        auto copy = std::make_shared<MeshData>(*mesh);
+        copy->normals.clear();
+        cached = std::move(copy);
+    }
+    return cached;
+}
+
+/// Normals that follow from the angles in world space are shared by all shapes whose transforms keep angles and orientation.
+std::shared_ptr<const MeshData> with_normals(MeshFile& file, bool flip, const glm::dmat4& to_world) {
+    auto mesh = with_uv(file, flip);
+    if (!mesh->normals.empty()) return mesh;
+    const bool shareable = is_similarity(to_world, 1e-6) && glm::determinant(glm::dmat3(to_world)) > 0.0;
+    auto& cached = file.smooth[flip ? 1 : 0];
+    if (shareable && cached) return cached;
+    auto copy = std::make_shared<MeshData>(*mesh);
+    copy->normals = smooth_normals(*mesh, shareable ? glm::dmat4(1.0) : to_world);
+    if (shareable) cached = copy;
+    return copy;
+}
+
+MeshShape read_mesh(Properties& p, const glm::dmat4& to_world, bool face_normals, Context& context) {
+    const bool obj = p.type() == "obj";
+    const auto path = resolve(p.required_text("filename"), context.scene_directory, p.where("filename"));
+    MeshFile& file = mesh_file(path, obj, p.where("filename"), context);
+    const bool flip = p.boolean("flip_tex_coords", obj);  // OBJ counts v from the bottom, Mitsuba's images from the top
+    return {face_normals ? without_normals(file, flip) : with_normals(file, flip, to_world)};
+}
+
+SphereShape read_sphere(Properties& p, const glm::dmat4& to_world) {
+    SphereShape s;
+    s.center = p.point("center", s.center);
+    s.radius = p.number("radius", s.radius);
+    if (!(s.radius > 0.0)) fail(p.where("radius"), "'radius' is {}; it must be positive", s.radius);
+    // Matrices are often written with four digits.
+    if (!is_similarity(to_world, 1e-4))
+        fail(p.where("to_world"), "'to_world' of a sphere must scale all axes alike; use a mesh for an ellipsoid");
+    return s;
+}
+
+Geometry read_geometry(Properties& p, const glm::dmat4& to_world, bool face_normals, Context& context) {
+    if (p.type() == "rectangle") return RectangleShape{};
+    if (p.type() == "disk") return DiskShape{};
+    if (p.type() == "cube") return CubeShape{};
+    if (p.type() == "sphere") return read_sphere(p, to_world);
+    return read_mesh(p, to_world, face_normals, context);
+}
+
+/// Corners of a box around the shape in its own space.
+void bounds(const Geometry& geometry, glm::dvec3& low, glm::dvec3& high) {
+    low = glm::dvec3(-1.0), high = glm::dvec3(1.0);
+    if (const auto* sphere = std::get_if<SphereShape>(&geometry))
+        low = sphere->center - sphere->radius, high = sphere->center + sphere->radius;
+    if (const auto* mesh = std::get_if<MeshShape>(&geometry)) {
+        low = high = glm::dvec3(mesh->data->positions.front());
+        for (const glm::vec3& v : mesh->data->positions)
+            for (int k = 0; k < 3; ++k) low[k] = std::min(low[k], double(v[k])), high[k] = std::max(high[k], double(v[k]));
+    }
+}
+
+void check_placement(const Properties& p, const Shape& shape) {
+    const double determinant = glm::determinant(glm::dmat3(shape.to_world));
+    if (determinant == 0.0 || !std::isfinite(1.0 / determinant))
+        fail(p.where("to_world"), "'to_world' of {} cannot be inverted; does it scale by 0?", p.type());
+    glm::dvec3 low, high;
+    bounds(shape.geometry, low, high);
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec4 own(corner & 1 ? low.x : high.x, corner & 2 ? low.y : high.y, corner & 4 ? low.z : high.z, 1.0);
+        const glm::dvec4 world = shape.to_world * own;
+        if (!(std::max({std::abs(world.x), std::abs(world.y), std::abs(world.z)}) <= double(kMaxCoordinate)))
+            fail(p.where("to_world"), "{} reaches beyond {} in world space", p.type(), kMaxCoordinate);
+    }
+}
+
+}  // namespace
+
+void read_shape(const Element& element, Context& context) {
+    Properties p(element, context.ids, {"obj", "ply", "rectangle", "disk", "cube", "sphere"});
+    Shape shape;
+    shape.id = p.id();
+    shape.where = p.where();
+    shape.to_world = p.transform("to_world");
+    shape.flip_normals = p.boolean("flip_normals", false);
+    if (p.type() != "sphere" && p.type() != "disk") shape.face_normals = p.boolean("face_normals", false);
+    shape.geometry = read_geometry(p, shape.to_world, shape.face_normals, context);
+    const Element* bsdf = p.object("bsdf");
+    const Element* emitter = p.object("emitter");
+    p.finish();
+    check_placement(p, shape);
+    if (emitter) shape.emission = read_area_emission(*emitter, context);
+    shape.material = bsdf ? material_of(*bsdf, context) : emitter ? black_material(context) : 0;
+    context.scene.shapes.push_back(std::move(shape));
+}
+
+}  // namespace koksma::loader
