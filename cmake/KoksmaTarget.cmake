@@ -15,5 +15,9 @@ function(koksma_target target)
   if(KOKSMA_MASTER)
     target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
                            $<$<BOOL:${KOKSMA_WARNINGS_AS_ERRORS}>:-Werror>)
+    # GCC 12 and 13 see overlapping copies in std::string's operator+ that are not there (GCC bug 105651).
+    if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+      target_compile_options(${target} PRIVATE -Wno-restrict)
+    endif()
   endif()
 endfunction()

@@ -11,7 +11,7 @@ namespace koksma {
 BenchScene open_scene(const ExperimentScene& what) {
     BenchScene out{what, compile(load_scene(what.file)), {}, {}};
     const FilmSettings& film = out.scene.film;
-    if (what.crop.x + what.crop.width > film.width || what.crop.y + what.crop.height > film.height)
+    if (what.crop.x > film.width - what.crop.width || what.crop.y > film.height - what.crop.height)
         throw Error(fmt::format("{}: the experiment's crop {}x{}+{}+{} is not inside the film of {}x{} pixels", what.file.string(), what.crop.width, what.crop.height,
                                 what.crop.x, what.crop.y, film.width, film.height));
     out.plan = make_plan(out.scene, out.scene.description.integrator);

@@ -234,8 +234,15 @@ int run_bench(const BenchCommand& command, const Registry& registry, const std::
     if (command.quick) experiment = quick(experiment);
     if (!command.samplers.empty()) experiment.samplers = command.samplers;
     std::vector<std::unique_ptr<SamplerFactory>> samplers;
-    for (const std::string& spec : experiment.samplers) samplers.push_back(make_sampler(registry, spec));
+    for (const std::string& spec : experiment.samplers) {
+        samplers.push_back(make_sampler(registry, spec));
+        for (std::size_t i = 0; i + 1 < samplers.size(); ++i)  // its renders would count twice, as replicates that they are not
+            if (samplers[i]->name() == samplers.back()->name()) throw UsageError(fmt::format("sampler {} is asked for twice", samplers[i]->name()));
+    }
     const std::vector<BenchScene> scenes = open_scenes(experiment, command.scenes);
+    for (const BenchScene& s : scenes)
+        for (const auto& sampler : samplers)  // a limit is told now, not after an hour
+            static_cast<void>(sampler->bind(sampling_plan(s.scene, s.plan, experiment.spp.back(), 0)));
     if (command.dry_run) return price(experiment, scenes, registry, command.threads);
 
     const std::filesystem::path out = command.out.empty() ? std::filesystem::path("koksma-bench") / experiment.name : command.out;

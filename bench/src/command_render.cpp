@@ -87,6 +87,9 @@ void tell_invalid(const RenderCommand& command, const SceneSetup& setup, const R
 }  // namespace
 
 int run_render(const RenderCommand& command, const Registry& registry) {
+    if (command.output.extension() != ".exr")
+        throw UsageError(fmt::format("--output '{}': images are OpenEXR; give a name that ends in .exr", command.output.string()));
+    if (command.stats == command.output) throw UsageError("--stats and --output name the same file");
     require_writable(command.output);
     if (!command.stats.empty()) require_writable(command.stats);
     const SceneSetup setup = set_up(command.scene, registry);

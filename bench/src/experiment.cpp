@@ -10,12 +10,43 @@
 #include <cstdlib>
 #include <fstream>
 #include <set>
+#include <type_traits>
 
 namespace koksma {
 
 namespace {
 
 using Json = nlohmann::json;
+
+// JSON's own conversions turn 1.5 into 1, true into 1 and -4 into 2^64 - 4; these refuse. @return  what was expected, or nullptr
+const char* convert(const Json& json, std::string& value) {
+    if (!json.is_string()) return "a string";
+    value = json.get<std::string>();
+    return nullptr;
+}
+const char* convert(const Json& json, double& value) {
+    if (!json.is_number()) return "a number";
+    value = json.get<double>();
+    return nullptr;
+}
+const char* convert(const Json& json, std::uint64_t& value) {
+    if (!json.is_number_unsigned()) return "an integer, 0 or more";
+    value = json.get<std::uint64_t>();
+    return nullptr;
+}
+const char* convert(const Json& json, int& value) {
+    if (!json.is_number_integer() || json.get<double>() < -0x1p31 || json.get<double>() >= 0x1p31) return "an integer of 32 bits";
+    value = json.get<int>();
+    return nullptr;
+}
+template <class T>
+const char* convert(const Json& json, std::vector<T>& values) {
+    if (!json.is_array()) return "a list";
+    values.clear();
+    for (const Json& item : json)
+        if (convert(item, values.emplace_back()) != nullptr) return std::is_same_v<T, std::string> ? "a list of strings" : (std::is_same_v<T, double> ? "a list of numbers" : "a list of integers in range");
+    return nullptr;
+}
 
 /// Reads the keys of one object and complains about those that nobody asked for.
 class Keys {
@@ -31,11 +62,7 @@ public:
             if (required) throw Error(fmt::format("{}: the key \"{}\" is missing", where_, key));
             return;
         }
-        try {
-            value = it->template get<T>();
-        } catch (const Json::exception&) {
-            throw Error(fmt::format("{}: \"{}\" has the wrong type: {}", where_, key, it->dump()));
-        }
+        if (const char* expected = convert(*it, value)) throw Error(fmt::format("{}: \"{}\": expected {}, found {}", where_, key, expected, it->dump()));
     }
     [[nodiscard]] const Json* object(const char* key) {
         known_.insert(key);
@@ -96,6 +123,9 @@ ExperimentScene scene_of(const Json& json, const std::string& where, const std::
 void check(const Experiment& e) {
     const std::string where = e.file.string();
     if (e.scenes.empty() || e.samplers.empty() || e.spp.empty()) throw Error(where + ": scenes, samplers and spp may not be empty");
+    for (std::size_t i = 0; i < e.scenes.size(); ++i)
+        for (std::size_t k = 0; k < i; ++k)
+            if (e.scenes[i].name == e.scenes[k].name) throw Error(fmt::format("{}: two scenes are named {}; rows are told apart by the file's name", where, e.scenes[i].name));
     if (e.spp.size() != e.replicates.size()) throw Error(fmt::format("{}: {} values of spp but {} of replicates", where, e.spp.size(), e.replicates.size()));
     for (std::size_t i = 0; i < e.spp.size(); ++i) {
         if (e.spp[i] == 0 || e.replicates[i] < 1) throw Error(where + ": spp and replicates must be 1 or more");
@@ -104,6 +134,7 @@ void check(const Experiment& e) {
     if (e.reference.samplers.size() != 2 || e.reference.samplers[0] == e.reference.samplers[1])
         throw Error(where + ": \"reference\" needs two different samplers, one for each half");
     if (e.reference.replicates < 2 || e.reference.spp == 0) throw Error(where + ": a reference needs two replicates or more, and samples");
+    if (e.picture_size < 1 || e.picture_spp == 0) throw Error(where + ": picture_size and picture_spp must be 1 or more");
 }
 
 }  // namespace
@@ -128,9 +159,10 @@ Experiment load_experiment(const std::string& name_or_file) {
     keys.read("crop_spp", e.crop_spp, false);
     keys.read("picture_size", e.picture_size, false);
     keys.read("picture_spp", e.picture_spp, false);
-    if (const Json* scenes = keys.object("scenes"); scenes != nullptr && scenes->is_array())
-        for (std::size_t i = 0; i < scenes->size(); ++i)
-            e.scenes.push_back(scene_of((*scenes)[i], fmt::format("{}: scenes[{}]", e.file.string(), i), e.file.parent_path()));
+    const Json* scenes = keys.object("scenes");
+    if (scenes == nullptr || !scenes->is_array()) throw Error(fmt::format("{}: \"scenes\": expected a list of objects with the keys file and crop", e.file.string()));
+    for (std::size_t i = 0; i < scenes->size(); ++i)
+        e.scenes.push_back(scene_of((*scenes)[i], fmt::format("{}: scenes[{}]", e.file.string(), i), e.file.parent_path()));
     if (const Json* reference = keys.object("reference")) {
         Keys r(*reference, e.file.string() + ": reference");
         r.read("samplers", e.reference.samplers, true);
@@ -149,7 +181,7 @@ Experiment quick(Experiment e) {
         e.spp.pop_back();
         e.replicates.pop_back();
     }
-    for (int& r : e.replicates) r = std::max(4, r / 2);
+    for (int& r : e.replicates) r = std::min(r, std::max(4, r / 2));
     e.picture_spp = std::min<std::uint64_t>(e.picture_spp, 16);
     return e;
 }

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <charconv>
 #include <cstdio>
 #include <functional>
 
@@ -13,12 +14,29 @@ namespace koksma {
 
 namespace {
 
+/// CLI11 lets "-3" wrap around and "1e30" saturate. @return  empty, or what is wrong
+std::string not_a_count(const std::string& text) {
+    std::uint64_t value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return error == std::errc{} && end == text.data() + text.size() ? "" : fmt::format("'{}' is not an integer in [0, 2^64)", text);
+}
+
+/// One line for whatever the parser refused.
+std::string usage_message(const CLI::App& app, const CLI::ParseError& e) {
+    const auto commands = app.get_subcommands();
+    if (!commands.empty()) return fmt::format("{}; see koksma {} --help", e.what(), commands.front()->get_name());
+    std::string known;
+    for (const CLI::App* c : app.get_subcommands([](const CLI::App*) { return true; })) known += (known.empty() ? "" : ", ") + c->get_name();
+    const std::vector<std::string> unknown = app.remaining();
+    return fmt::format("{}; commands: {}", unknown.empty() ? "a command is required" : "unknown command '" + unknown.front() + "'", known);
+}
+
 void add_scene_options(CLI::App* app, SceneArguments& a, bool scene_required = true) {
     CLI::Option* scene = app->add_option("scene", a.scene, "Scene file (Mitsuba 3 XML)");
     if (scene_required) scene->required();
     app->add_option("-s,--sampler", a.sampler, "Sampler with options, as in sobol:randomize=owen (koksma samplers lists them)");
-    app->add_option("-n,--spp", a.spp, "Samples per pixel");
-    app->add_option("--seed", a.seed, "Seed, below 2^63; every seed is an independent replicate (default 0)");
+    app->add_option("-n,--spp", a.spp, "Samples per pixel")->check(not_a_count);
+    app->add_option("--seed", a.seed, "Seed, below 2^63; every seed is an independent replicate (default 0)")->check(not_a_count);
     app->add_option("--max-depth", a.max_depth, "Longest path in vertices: 1 sees emission only, -1 has no limit");
     app->add_option("--rr-depth", a.rr_depth, "Russian roulette from this depth on");
     app->add_option("--crop", a.crop, "Render only this part of the film: X,Y,WIDTH,HEIGHT")->delimiter(',')->expected(4);
@@ -89,7 +107,7 @@ int run_program(int argc, char** argv) {
     c->add_option("experiment", reference.experiment, "Name of an experiment or a JSON file (default: default)");
     c->add_option("-o,--out", reference.out, "Folder to write to (default: the user's cache)");
     c->add_option("--scene", reference.scenes, "Only these scenes; may be repeated")->take_all();
-    c->add_option("-n,--spp", reference.spp, "Samples per pixel of each replicate");
+    c->add_option("-n,--spp", reference.spp, "Samples per pixel of each replicate")->check(not_a_count);
     c->add_option("-t,--threads", reference.threads, "Threads; 0: all")->check(CLI::Range(0, 4096));
     c->add_flag("--force", reference.force, "Remake those that exist");
     c->final_callback([&] { action = [&] { return run_reference(reference, registry); }; });
@@ -103,23 +121,27 @@ int run_program(int argc, char** argv) {
     c = app.add_subcommand("replay", "Print one camera sample's path vertex by vertex");
     add_scene_options(c, replay.scene, false);
     c->add_option("--pixel", replay.pixel, "X,Y on the full film")->delimiter(',')->expected(2)->required();
-    c->add_option("--sample", replay.sample, "Index of the sample in its pixel")->required();
+    c->add_option("--sample", replay.sample, "Index of the sample in its pixel")->required()->check(not_a_count);
     c->add_option("--from", replay.from, "Take scene, sampler, spp, seed and settings from an image that koksma rendered");
     c->final_callback([&] { action = [&] { return run_replay(replay, registry); }; });
 
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
-        return app.exit(e) == 0 ? 0 : 2;
+        if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
+        fmt::print(stderr, "koksma: {}\n", usage_message(app, e));
+        return 2;
     }
     try {
         register_samplers(registry);
-        return action();
+        const int code = action();
+        if (std::fflush(stdout) != 0) throw Error("cannot write to standard output; what was printed is incomplete");
+        return code;
     } catch (const UsageError& e) {
         fmt::print(stderr, "koksma: {}\n", e.what());
         return 2;
     } catch (const std::bad_alloc&) {
-        fmt::print(stderr, "koksma: out of memory\n");
+        fmt::print(stderr, "koksma: out of memory; render a part of the film with --crop, or a smaller film\n");
         return 1;
     } catch (const std::exception& e) {
         fmt::print(stderr, "koksma: {}\n", e.what());

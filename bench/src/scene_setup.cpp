@@ -28,6 +28,8 @@ SceneSetup set_up(const SceneArguments& a, const Registry& registry) {
     // What is wrong with the arguments is said before a large scene is read.
     if (a.spp && *a.spp == 0) throw UsageError("--spp is 0; expected 1 or more");
     if (a.seed && *a.seed >= kReferenceSeedBit) throw UsageError("--seed must be below 2^63 (the seeds above belong to references)");
+    if (a.max_depth && *a.max_depth < -1) throw UsageError(fmt::format("--max-depth is {}; expected -1 (no limit), 0 or more", *a.max_depth));
+    if (a.rr_depth && *a.rr_depth < 0) throw UsageError(fmt::format("--rr-depth is {}; expected 0 or more", *a.rr_depth));
     if (a.sampler) static_cast<void>(make_sampler(registry, *a.sampler));
 
     SceneDescription description = load_scene(a.scene, parameters_of(a.defines));
@@ -35,7 +37,7 @@ SceneSetup set_up(const SceneArguments& a, const Registry& registry) {
     if (a.rr_depth) description.integrator.rr_depth = *a.rr_depth;
     if (!a.crop.empty()) {
         FilmSettings& film = description.film;
-        if (a.crop[0] < 0 || a.crop[1] < 0 || a.crop[2] < 1 || a.crop[3] < 1 || a.crop[0] + a.crop[2] > film.width || a.crop[1] + a.crop[3] > film.height)
+        if (a.crop[0] < 0 || a.crop[1] < 0 || a.crop[2] < 1 || a.crop[3] < 1 || a.crop[0] > film.width - a.crop[2] || a.crop[1] > film.height - a.crop[3])
             throw UsageError(fmt::format("--crop {},{},{},{} is not inside the film of {}x{} pixels", a.crop[0], a.crop[1], a.crop[2], a.crop[3], film.width, film.height));
         film.crop_x = a.crop[0];
         film.crop_y = a.crop[1];

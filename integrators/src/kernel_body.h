@@ -14,7 +14,7 @@ void trace_block(const Scene& scene, const IntegratorSettings& settings, Draws& 
     }
 }
 
-inline constexpr EffectSet kDiffuseEffects{Effect::area_light, Effect::light_choice, Effect::diffuse, Effect::roulette};
+inline constexpr EffectSet kDiffuseEffects{Effect::area_light, Effect::light_choice, Effect::diffuse, Effect::shading_normals, Effect::roulette};
 inline constexpr EffectSet kDiffuseTexturedEffects = kDiffuseEffects | EffectSet{Effect::texture, Effect::two_sided, Effect::environment,
                                                                                  Effect::point_light, Effect::shading_normals, Effect::lens};
 inline constexpr EffectSet kSpecularEffects = kDiffuseEffects | EffectSet{Effect::analytic_shape, Effect::sphere_light, Effect::specular,

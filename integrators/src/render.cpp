@@ -18,23 +18,12 @@ namespace koksma {
 namespace {
 
 constexpr std::int32_t kTile = 8;           // pixels per side of a task
-constexpr std::uint64_t kTimedEvery = 16;   // blocks: one in so many measures its fills
+constexpr std::uint64_t kTimedEvery = 16;   // blocks: the fills of one in so many are done again and timed
 
 double thread_seconds() noexcept {
     timespec t{};
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
     return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
-
-/// What one clock reading adds to a measured interval, in seconds.
-double clock_overhead() noexcept {
-    double best = 1.0;
-    for (int i = 0; i < 64; ++i) {
-        const auto a = std::chrono::steady_clock::now();
-        const auto b = std::chrono::steady_clock::now();
-        best = std::min(best, std::chrono::duration<double>(b - a).count());
-    }
-    return best;
 }
 
 bool earlier(const InvalidSample& a, const InvalidSample& b) noexcept {
@@ -51,7 +40,13 @@ struct Job {
     const WorkItem& work;
     const Kernel& kernel;
     Film& film;
-    double overhead;
+};
+
+/// Time of the fills of some blocks, done a second time.
+struct SamplerClock {
+    std::uint64_t phase = 0;  ///< counts blocks; starts elsewhere in each tile
+    std::uint64_t paths = 0;
+    double seconds = 0.0;
 };
 
 void add_invalid(RenderStats& stats, const InvalidSample& sample) {
@@ -64,7 +59,7 @@ void add_invalid(RenderStats& stats, const InvalidSample& sample) {
 }
 
 /// All samples of one pixel, in chunks aligned to multiples of Film::kChunk.
-void render_pixel(const Job& job, Pixel pixel, Draws& draws, std::uint64_t& block, RenderStats& stats) {
+void render_pixel(const Job& job, Pixel pixel, Draws& draws, SamplerClock& clock, RenderStats& stats) {
     SampleId ids[Film::kChunk];
     Vec3f radiance[Film::kChunk];
     const std::uint64_t end = job.work.first + job.work.count;
@@ -72,8 +67,13 @@ void render_pixel(const Job& job, Pixel pixel, Draws& draws, std::uint64_t& bloc
         const std::uint64_t chunk_end = std::min(end, (at / Film::kChunk + 1) * Film::kChunk);
         const auto n = static_cast<std::size_t>(chunk_end - at);
         for (std::size_t i = 0; i < n; ++i) ids[i] = {pixel, at + i};
-        draws.begin({ids, n}, block++ % kTimedEvery == 0);
+        const bool timed = clock.phase++ % kTimedEvery == 0;
+        draws.begin({ids, n}, timed);
         job.kernel.trace(job.scene, job.plan.integrator, draws, {radiance, n}, stats.rays);
+        if (timed) {
+            clock.seconds += draws.seconds_of_fills();
+            clock.paths += n;
+        }
         for (std::size_t i = 0; i < n; ++i)
             if (InvalidSample invalid{InvalidSample::Kind::nan, ids[i]}; is_invalid(radiance[i], invalid.kind)) {
                 add_invalid(stats, invalid);
@@ -90,16 +90,12 @@ RenderStats render_tile(const Job& job, PixelRect tile) {
     const double start = thread_seconds();
     RenderStats stats;
     Draws draws(job.plan, job.source);
-    std::uint64_t block = static_cast<std::uint64_t>(tile.x + 3 * tile.y) / kTile;  // another phase for each tile
-    const std::uint64_t first_block = block;
-    std::uint64_t timed_blocks = 0;
+    SamplerClock clock{static_cast<std::uint64_t>(tile.x + 3 * tile.y) / kTile, 0, 0.0};
     for (std::int32_t y = tile.y; y < tile.y + tile.height; ++y)
-        for (std::int32_t x = tile.x; x < tile.x + tile.width; ++x) render_pixel(job, {x, y}, draws, block, stats);
-    for (std::uint64_t b = first_block; b < block; ++b) timed_blocks += b % kTimedEvery == 0;
-    const double measured = std::max(0.0, draws.timed_seconds - job.overhead * static_cast<double>(draws.timed_calls));
-    if (timed_blocks > 0) stats.sampler_seconds = measured * static_cast<double>(block - first_block) / static_cast<double>(timed_blocks);
+        for (std::int32_t x = tile.x; x < tile.x + tile.width; ++x) render_pixel(job, {x, y}, draws, clock, stats);
+    if (clock.paths > 0) stats.sampler_seconds = clock.seconds * static_cast<double>(stats.paths) / static_cast<double>(clock.paths);
     stats.tail_numbers = draws.tail_numbers;
-    stats.cpu_seconds = thread_seconds() - start;
+    stats.cpu_seconds = thread_seconds() - start - clock.seconds;  // the second time is not rendering
     return stats;
 }
 
@@ -124,7 +120,7 @@ RenderResult render(const Scene& scene, const RenderPlan& plan, const SampleSour
     const Kernel& kernel = options.kernel != nullptr ? *options.kernel : choose_kernel(plan.effects);
     if (!kernel.effects.contains(plan.effects)) throw Error("kernel '" + std::string(kernel.name) + "' lacks an effect of the scene");
     RenderResult result{Film(work.rect), {}};
-    const Job job{scene, plan, source, work, kernel, result.film, clock_overhead()};
+    const Job job{scene, plan, source, work, kernel, result.film};
     const std::int32_t columns = (work.rect.width + kTile - 1) / kTile, rows = (work.rect.height + kTile - 1) / kTile;
     std::vector<RenderStats> tiles(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
 

@@ -61,7 +61,8 @@ TEST_CASE("metric intervals lose coverage under heavy tails, as far as documente
         Law law;
         double least;
     };
-    for (const Row& row : {Row{lognormal_law(0.5), 0.94}, Row{lognormal_law(1), 0.925}, Row{pareto_law(3), 0.88}, Row{pareto_law(2.1), 0.86}})
+    for (const Row& row :
+         {Row{lognormal_law(0.5), 0.94}, Row{lognormal_law(1), 0.925}, Row{pareto_law(3), 0.88}, Row{pareto_law(2.1), 0.86}})
         for (const int n : kReplicates) {
             const double covered = metric_coverage(row.law, n), plain = mean_coverage(row.law, n);
             CAPTURE(row.law.name, n, covered, plain);

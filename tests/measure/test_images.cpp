@@ -202,7 +202,8 @@ TEST_CASE("two halves of one truth agree and a bias of 2 percent shows in the wh
     Pair sure_a = a, sure_b = b;
     for (float& v : sure_a.variance) v /= 4;
     for (float& v : sure_b.variance) v /= 4;
-    CHECK(agreement(sure_a.mean, sure_a.variance, sure_b.mean, sure_b.variance, kWidth, kHeight).rms_z == Approx(2 * same.rms_z).epsilon(1e-5));
+    const Agreement sure = agreement(sure_a.mean, sure_a.variance, sure_b.mean, sure_b.variance, kWidth, kHeight);
+    CHECK(sure.rms_z == Approx(2 * same.rms_z).epsilon(1e-5));
 }
 
 TEST_CASE("agreement counts pixels that are not finite and leaves black ones untested", "[unit][measure]") {

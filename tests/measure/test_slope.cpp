@@ -94,6 +94,8 @@ TEST_CASE("one replicate a point gives a slope and no interval, unless others te
     curve[0].errors = replicates(chi2_law(0.2), 8, 0.09 / 16, g);
     CHECK(fit_slope(curve).has_interval());
     CHECK(fit_slope(curve).dof > 6.9);
+    const std::vector<RatePoint> two = {{4, {1.0, 1.2, 0.8, 1.0}}, {16, {0.25}}};
+    CHECK(fit_slope(two).standard_error == Approx(0.5 * std::sqrt(0.08 / 3 * (0.25 + 1)) / std::log(4.0)));
 }
 
 TEST_CASE("a bent curve fails the test of straightness and a straight one passes as often as it should", "[unit][measure]") {

@@ -75,6 +75,7 @@ TEST_CASE("a curve that crosses several times counts from the last", "[unit][mea
 TEST_CASE("the order of points and points below the floor do not matter", "[unit][measure]") {
     auto points = curve({{8, 0.125}, {1, 1}, {4, 0.25}, {2, 0.5}});
     points.push_back({16, {kNaN, kNaN, kNaN, kNaN, 4}});
+    points.push_back({32, {-1e-3, -2e-3, 1e-3, 0, 4}});
     const TimeTo t = time_to(points, 0.3);
     CHECK(t.seconds == Approx(1 / 0.3));
     CHECK(t.hi == Approx(2 / 0.3));

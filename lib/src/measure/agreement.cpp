@@ -42,7 +42,8 @@ struct Images {
 };
 
 void check_sizes(const Images& images, int width, int height) {
-    const std::size_t expected = width > 0 && height > 0 ? std::size_t{3} * static_cast<std::size_t>(width) * static_cast<std::size_t>(height) : 0;
+    const bool positive = width > 0 && height > 0;
+    const std::size_t expected = positive ? std::size_t{3} * static_cast<std::size_t>(width) * static_cast<std::size_t>(height) : 0;
     const auto check = [&](std::span<const float> image, const char* name, bool may_be_empty) {
         if (expected == 0 || (image.size() != expected && !(may_be_empty && image.empty())))
             throw Error(std::string("agreement: found ") + std::to_string(image.size()) + " values in " + name + ", expected " +

@@ -58,6 +58,7 @@ public:
         if (!(sphere.radius > 0.0) || !std::isfinite(sphere.radius))
             throw Error(shape_.where.text() + ": the sphere's radius is " + std::to_string(sphere.radius) + "; it must be positive");
         GeometryRecord g = record(GeometryKind::sphere);
+        g.flip = g.flip != (glm::determinant(glm::dmat3(m)) < 0.0);
         g.first = static_cast<std::uint32_t>(scene_.spheres.size());
         scene_.spheres.push_back(sphere);
         scene_.geometries.push_back(g);
@@ -81,8 +82,9 @@ private:
         const glm::dmat3 linear(m);
         const double det = glm::determinant(linear);
         if (!(det != 0.0) || !std::isfinite(det)) throw Error(shape_.where.text() + ": the shape's to_world is singular");
-        // A mirroring transform turns the winding over; Mitsuba's normals are transformed as normals, so they do not turn.
-        g.flip = g.flip != (det < 0.0);
+        // A mirroring transform turns the winding over. Normals that come with a shape are transformed as normals and do not
+        // turn; a faceted mesh has none but the winding. This is Mitsuba's behaviour.
+        g.flip = g.flip != (det < 0.0 && !std::holds_alternative<MeshShape>(shape_.geometry));
         g.first = static_cast<std::uint32_t>(scene_.triangles.size());
         g.has_uvs = !mesh.uvs.empty();
         g.has_normals = !mesh.normals.empty() && !shape_.face_normals;
@@ -97,9 +99,8 @@ private:
         if (g.has_normals) {
             scene_.normals.resize(base);
             const glm::dmat3 normal_matrix = glm::transpose(glm::inverse(linear));
-            const double side = det < 0.0 ? -1.0 : 1.0;  // the record's flip will turn them back
             for (const glm::vec3& n : mesh.normals) {
-                const glm::dvec3 v = normal_matrix * glm::dvec3(n) * side;
+                const glm::dvec3 v = normal_matrix * glm::dvec3(n);
                 const double len = glm::length(v);
                 scene_.normals.push_back(len > 0.0 ? Vec3f(glm::vec3(v / len)) : Vec3f(0.0f));
             }

@@ -29,10 +29,11 @@ public:
         single_.resize(widest);
     }
 
-    /// Starts a block. `timed`: also measure the time that its fills take.
-    void begin(std::span<const SampleId> samples, bool timed) noexcept {
+    /// Starts a block. `remember`: keep a list of its fills, for seconds_of_fills().
+    void begin(std::span<const SampleId> samples, bool remember) {
         samples_ = samples;
-        timed_ = timed;
+        remember_ = remember;
+        fills_.clear();
         for (bool& f : filled_) f = false;
         fill(samples_, plan_.layout.camera(), camera_.data(), kCapacity);
     }
@@ -62,9 +63,16 @@ public:
     [[nodiscard]] glm::vec2 direction(std::size_t b) noexcept { return get_2d(b, SlotRole::direction, &BounceSlots::direction); }
     [[nodiscard]] float roulette(std::size_t b) noexcept { return get_1d(b, SlotRole::roulette, &BounceSlots::roulette); }
 
-    /// Seconds spent in the fills of timed blocks, and calls and numbers that they made.
-    double timed_seconds = 0.0;
-    std::uint64_t timed_calls = 0;
+    /// Does the remembered fills of the block again, in one go, and takes the time: a clock around each single fill would
+    /// measure the clock.
+    [[nodiscard]] double seconds_of_fills() {
+        std::vector<float>& scratch = scratch_;
+        scratch.resize(camera_.size() + block_[0].size() + block_[1].size() + single_.size());
+        const auto start = std::chrono::steady_clock::now();
+        for (const Fill& f : fills_) source_.fill(f.samples, f.run, scratch.data(), f.stride);
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    }
+
     std::uint64_t tail_numbers = 0;  ///< numbers drawn from the tail beyond the layout
 
 private:
@@ -90,22 +98,23 @@ private:
         return tail_sample(source_.seed(), id(), static_cast<std::uint32_t>(bounce), role, k);
     }
     void fill(std::span<const SampleId> ids, SlotRun run, float* out, std::size_t stride) noexcept {
-        if (!timed_) {
-            source_.fill(ids, run, out, stride);
-            return;
-        }
-        const auto start = std::chrono::steady_clock::now();
         source_.fill(ids, run, out, stride);
-        timed_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-        ++timed_calls;
+        if (remember_) fills_.push_back({ids, run, stride});
     }
 
+    struct Fill {
+        std::span<const SampleId> samples;
+        SlotRun run;
+        std::size_t stride;
+    };
     const RenderPlan& plan_;
     const SampleSource& source_;
     std::span<const SampleId> samples_;
     std::vector<float> camera_, block_[kBlockBounces], single_;
     bool filled_[kBlockBounces] = {};
-    bool timed_ = false;
+    bool remember_ = false;
+    std::vector<Fill> fills_;
+    std::vector<float> scratch_;
     std::size_t path_ = 0, single_bounce_ = kNoBounce;
 };
 
