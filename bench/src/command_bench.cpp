@@ -1,5 +1,8 @@
 #include "bench_scene.h"
+#include "line_file.h"
 #include "machine.h"
+#include "measure.h"
+#include "pictures.h"
 #include "png.h"
 #include "progress.h"
 #include "reference_store.h"
@@ -8,81 +11,16 @@
 #include "scene_setup.h"
 
 #include <koksma/film/atomic_file.h>
-#include <koksma/measure/metrics.h>
-#include <koksma/measure/seeds.h>
-
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <fcntl.h>
-#include <unistd.h>
-
-#include <cerrno>
-#include <cstring>
-#include <numeric>
+#include <algorithm>
 
 namespace koksma {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// Appends whole lines: each is one write, so a file never holds half of one.
-class LineFile {
-public:
-    explicit LineFile(std::filesystem::path file) : file_(std::move(file)), descriptor_(::open(file_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0644)) {
-        if (descriptor_ < 0) throw Error(fmt::format("cannot write {}: {}", file_.string(), std::strerror(errno)));
-    }
-    ~LineFile() { ::close(descriptor_); }
-    LineFile(const LineFile&) = delete;
-    LineFile& operator=(const LineFile&) = delete;
-    void add(const Json& json) {
-        const std::string line = json.dump() + "\n";
-        const off_t before = ::lseek(descriptor_, 0, SEEK_END);
-        const ssize_t written = ::write(descriptor_, line.data(), line.size());
-        if (written == static_cast<ssize_t>(line.size())) return;
-        const int error = written < 0 ? errno : ENOSPC;
-        if (::ftruncate(descriptor_, before) != 0) throw Error(fmt::format("cannot write {}, and its last line may be incomplete", file_.string()));
-        throw Error(fmt::format("cannot write {}: {}; earlier rows are intact", file_.string(), std::strerror(error)));
-    }
-
-private:
-    std::filesystem::path file_;
-    int descriptor_;
-};
-
-std::uint64_t paths_per_pixel(const Experiment& e) {
-    std::uint64_t n = 0;
-    for (std::size_t i = 0; i < e.spp.size(); ++i) n += e.spp[i] * static_cast<std::uint64_t>(e.replicates[i]);
-    return n;
-}
-
-/// Seconds of CPU time a path, from a small render.
-double seconds_per_path(const BenchScene& s, const Registry& registry, int threads) {
-    const auto source = registry.make("random")->bind(sampling_plan(s.scene, s.plan, 16, 0));
-    RenderOptions options;
-    options.threads = threads;
-    const RenderStats stats = render(s.scene, s.plan, *source, {s.what.crop, 0, 16}, options).stats;
-    return stats.cpu_seconds / static_cast<double>(stats.paths);
-}
-
-int price(const Experiment& experiment, const std::vector<BenchScene>& scenes, const Registry& registry, int threads) {
-    const int cores = threads > 0 ? threads : machine().cores;
-    double total = 0.0;
-    fmt::print("{:<10}{:>12}{:>14}{:>12}{:>14}  reference\n", "scene", "renders", "paths", "ns/path", "CPU seconds");
-    const auto runs = std::accumulate(experiment.replicates.begin(), experiment.replicates.end(), std::size_t{0}) * experiment.samplers.size();
-    for (const BenchScene& s : scenes) {
-        const double per_path = seconds_per_path(s, registry, threads);
-        const auto paths = static_cast<double>(paths_per_pixel(experiment) * experiment.samplers.size()) * static_cast<double>(s.what.crop.area());
-        const auto file = find_reference(s.key);
-        const double reference = file ? 0.0 : 2.0 * experiment.reference.replicates * static_cast<double>(experiment.reference.spp) * static_cast<double>(s.what.crop.area()) * per_path;
-        total += paths * per_path + reference;
-        fmt::print("{:<10}{:>12}{:>14.0f}{:>12.0f}{:>14.1f}  {}\n", s.what.name, runs, paths, per_path * 1e9, paths * per_path,
-                   file ? file->string() : fmt::format("must be made: {:.1f} CPU seconds", reference));
-    }
-    fmt::print("about {} of CPU time, {} on {} cores, and the pictures and the report\n", duration_text(total), duration_text(total / cores), cores);
-    return 0;
-}
 
 Json header_json(const Experiment& e, const std::vector<std::unique_ptr<SamplerFactory>>& samplers, const std::string& command_line, int threads) {
     const Machine m = machine();
@@ -109,84 +47,6 @@ Json header_json(const Experiment& e, const std::vector<std::unique_ptr<SamplerF
             {"relmse_targets", e.targets},
             {"crop_spp", e.crop_spp},
             {"scenes", Json::array()}};
-}
-
-/// One measured render.
-Row measure(const BenchScene& s, const SamplerFactory& sampler, const Reference& reference, std::uint64_t spp, int replicate, std::uint64_t base_seed, int threads,
-            std::vector<float>& image) {
-    const std::uint64_t seed = test_seed(base_seed, s.key.scene_hash, sampler.name(), spp, static_cast<std::uint64_t>(replicate));
-    const auto source = sampler.bind(sampling_plan(s.scene, s.plan, spp, seed));
-    RenderOptions options;
-    options.threads = threads;
-    const RenderResult result = render(s.scene, s.plan, *source, {s.what.crop, 0, spp}, options);
-    image = result.film.image();
-    const ReferenceError error = compare_to_reference(image, reference.mean, reference.variance);
-    static const Machine kMachine = machine();
-    const Vec3d mean = result.film.mean();
-    Row row;
-    row.scene = s.what.name;
-    row.scene_hash = fmt::format("{:016x}", s.key.scene_hash);
-    row.sampler = sampler.name();
-    row.sampler_version = sampler.info().version;
-    row.randomized = sampler.randomized();
-    row.spp = spp;
-    row.seed = seed;
-    row.replicate = replicate;
-    row.film[0] = s.scene.film.width;
-    row.film[1] = s.scene.film.height;
-    const int crop[4] = {s.what.crop.x, s.what.crop.y, s.what.crop.width, s.what.crop.height};
-    std::copy(crop, crop + 4, row.crop);
-    row.max_depth = s.plan.integrator.max_depth;
-    row.rr_depth = s.plan.integrator.rr_depth;
-    row.effects = s.plan.effects.names();
-    row.dimensions = s.plan.layout.dimensions();
-    row.kernel = result.stats.kernel;
-    row.mse = error.mse;
-    row.mse_raw = error.mse_raw;
-    row.rmse = error.mse > 0.0 ? std::sqrt(error.mse) : 0.0;
-    row.relmse = error.relmse;
-    row.relmse_raw = error.relmse_raw;
-    row.mean_rgb[0] = mean.x;
-    row.mean_rgb[1] = mean.y;
-    row.mean_rgb[2] = mean.z;
-    row.wall_seconds = result.stats.wall_seconds;
-    row.cpu_seconds = result.stats.cpu_seconds;
-    row.sampler_seconds = result.stats.sampler_seconds;
-    row.paths = result.stats.paths;
-    row.rays = result.stats.rays.closest + result.stats.rays.shadow;
-    row.invalid_samples = result.stats.invalid_samples;
-    row.threads = threads > 0 ? threads : kMachine.cores;
-    row.estimator_version = kEstimatorVersion;
-    row.reference = s.key.digest();
-    row.commit = commit();
-    row.machine = kMachine.cpu;
-    row.isa = kMachine.isa;
-    return row;
-}
-
-/// The file name of a sampler's crop: options without the characters that file systems dislike.
-std::string file_stem(std::string sampler) {
-    for (char& c : sampler)
-        if (c == ':' || c == '=' || c == ',' || c == '/') c = '-';
-    return sampler;
-}
-
-/// The whole picture of a scene, small. @return its path relative to the results
-std::string render_picture(const Experiment& e, const BenchScene& s, const Registry& registry, const std::filesystem::path& out, int threads) {
-    SceneDescription description = load_scene(s.what.file);
-    FilmSettings& film = description.film;
-    const double scale = static_cast<double>(e.picture_size) / std::max(film.width, film.height);
-    film = {std::max(1, static_cast<int>(film.width * scale)), std::max(1, static_cast<int>(film.height * scale)), 0, 0, 0, 0};
-    const Scene scene = compile(description);
-    const RenderPlan plan = make_plan(scene, description.integrator);
-    const auto source = registry.make(registry.contains("sobol") ? "sobol" : "random")->bind(sampling_plan(scene, plan, e.picture_spp, 0));
-    RenderOptions options;
-    options.threads = threads;
-    const RenderResult result = render(scene, plan, *source, {crop_of(scene.film), 0, e.picture_spp}, options);
-    const std::vector<float> image = result.film.image();
-    const std::string name = "pictures/" + s.what.name + ".png";
-    write_png(out / name, image, scene.film.width, scene.film.height, exposure_for(image));
-    return name;
 }
 
 Reference obtain_reference(const Experiment& e, const BenchScene& s, const Registry& registry, int threads) {
@@ -243,7 +103,10 @@ int run_bench(const BenchCommand& command, const Registry& registry, const std::
     for (const BenchScene& s : scenes)
         for (const auto& sampler : samplers)  // a limit is told now, not after an hour
             static_cast<void>(sampler->bind(sampling_plan(s.scene, s.plan, experiment.spp.back(), 0)));
-    if (command.dry_run) return price(experiment, scenes, registry, command.threads);
+    if (command.dry_run) {
+        print_price(experiment, scenes, registry, command.threads);
+        return 0;
+    }
 
     const std::filesystem::path out = command.out.empty() ? std::filesystem::path("koksma-bench") / experiment.name : command.out;
     std::error_code error;

@@ -11,6 +11,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 
@@ -23,6 +24,7 @@ int run_program_with(const std::vector<std::string>& words, const std::string& p
     std::vector<char*> argv;
     for (const std::string& w : words) argv.push_back(const_cast<char*>(w.c_str()));
     argv.push_back(nullptr);
+    std::fflush(stdout);  // the tables come before what the child prints
     const pid_t child = ::fork();
     if (child == 0) {
         ::setenv("PYTHONPATH", python_path.c_str(), 1);

@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <vector>
 
 namespace koksma {
@@ -38,8 +39,13 @@ void write_png(const std::filesystem::path& file, std::span<const float> rgb, in
         const float s = v <= 0.0031308f ? 12.92f * v : 1.055f * std::pow(v, 1.0f / 2.4f) - 0.055f;
         bytes[i] = static_cast<unsigned char>(s * 255.0f + 0.5f);
     }
+    // stbi_write_png() itself would not notice a full disk.
+    const auto append = [](void* stream, void* data, int size) { static_cast<std::ofstream*>(stream)->write(static_cast<const char*>(data), size); };
     write_atomically(file, [&](const std::filesystem::path& path) {
-        if (stbi_write_png(path.string().c_str(), width, height, 3, bytes.data(), 3 * width) == 0) throw Error("the disk is full or the folder is not writable");
+        std::ofstream out(path, std::ios::binary);
+        const bool made = stbi_write_png_to_func(append, &out, width, height, 3, bytes.data(), 3 * width) != 0;
+        out.flush();
+        if (!made || !out) throw Error("the disk is full or the folder is not writable");
     });
 }
 

@@ -27,12 +27,32 @@ std::optional<std::filesystem::path> find_reference(const ReferenceKey& key) {
     return std::nullopt;
 }
 
+namespace {
+
+/// One sampler for each half. @throws Error if they could not tell the reference's own error
+std::vector<std::unique_ptr<SamplerFactory>> reference_samplers(const ReferenceKey& key, const Experiment& experiment, const Registry& registry) {
+    std::vector<std::unique_ptr<SamplerFactory>> samplers;
+    for (const std::string& spec : experiment.reference.samplers) {
+        try {
+            samplers.push_back(registry.make(spec));
+        } catch (const Error& e) {
+            throw Error(fmt::format("the reference of {} cannot be made: {}", key.scene, e.what()));
+        }
+        if (!samplers.back()->randomized()) throw Error(fmt::format("the reference of {} cannot be made: {} has no randomisation, so no replicates", key.scene, samplers.back()->name()));
+    }
+    if (samplers[0]->name() == samplers[1]->name()) throw Error(fmt::format("the reference of {} cannot be made: both halves would be {}", key.scene, samplers[0]->name()));
+    return samplers;
+}
+
+}  // namespace
+
 Reference make_reference(const Scene& scene, const RenderPlan& plan, const ReferenceKey& key, const Experiment& experiment, std::uint64_t spp,
                          const Registry& registry, int threads, const std::function<void(double)>& progress) {
     Reference reference{key, {}, {}, {}};
     const int n = experiment.reference.replicates;
+    const auto samplers = reference_samplers(key, experiment, registry);
     for (int half = 0; half < 2; ++half) {
-        const auto sampler = registry.make(experiment.reference.samplers[static_cast<std::size_t>(half)]);
+        const auto& sampler = samplers[static_cast<std::size_t>(half)];
         HalfAccumulator sum;
         for (int r = 0; r < n; ++r) {
             const std::uint64_t seed = reference_seed(key.scene_hash, sampler->name(), static_cast<std::uint64_t>(r));

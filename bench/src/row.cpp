@@ -3,8 +3,16 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <limits>
 
 namespace koksma {
+
+namespace {
+
+/// JSON has no NaN (the relMSE against a black reference); it is written as null.
+double number_or_nan(const nlohmann::ordered_json& j) { return j.is_null() ? std::numeric_limits<double>::quiet_NaN() : j.get<double>(); }
+
+}  // namespace
 
 void to_json(nlohmann::ordered_json& j, const Row& r) {
     j = {{"kind", "render"},
@@ -63,8 +71,8 @@ void from_json(const nlohmann::ordered_json& j, Row& r) {
     j.at("mse").get_to(r.mse);
     j.at("mse_raw").get_to(r.mse_raw);
     r.rmse = r.mse > 0.0 ? std::sqrt(r.mse) : 0.0;
-    j.at("relmse").get_to(r.relmse);
-    j.at("relmse_raw").get_to(r.relmse_raw);
+    r.relmse = number_or_nan(j.at("relmse"));
+    r.relmse_raw = number_or_nan(j.at("relmse_raw"));
     for (std::size_t i = 0; i < 3; ++i) r.mean_rgb[i] = j.at("mean_rgb").at(i);
     j.at("wall_seconds").get_to(r.wall_seconds);
     j.at("cpu_seconds").get_to(r.cpu_seconds);

@@ -44,7 +44,7 @@ void print_rates(const Json& scene) {
         const Json& gain = s.at("gain_vs_random");
         std::string gain_text = "baseline";
         if (s.at("sampler") != "random") {
-            gain_text = gain.is_null() ? "no interval without a randomisation" : with_interval(gain.at("mse_ratio"), gain.at("lo"), gain.at("hi"), "{:.2f}");
+            gain_text = gain.is_null() ? (s.at("randomized").get<bool>() ? "below floor" : "no interval without a randomisation") : with_interval(gain.at("mse_ratio"), gain.at("lo"), gain.at("hi"), "{:.2f}");
             if (!gain.is_null() && !gain.at("distinguishable").get<bool>()) gain_text += " not distinguishable";
         }
         std::string times;

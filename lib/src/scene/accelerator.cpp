@@ -154,8 +154,15 @@ void Accelerator::add_mesh(std::span<const Vec3f> vertices, std::span<const std:
     impl_->attach(geometry);
 }
 
-void Accelerator::add_sphere(const AnalyticSphere& sphere) { impl_->add_user({sphere}); }
-void Accelerator::add_disk(const AnalyticDisk& disk) { impl_->add_user({disk}); }
+void Accelerator::add_sphere(const AnalyticSphere& sphere) {
+    if (!(length(sphere.center) + sphere.radius < kLargestCoordinate)) throw Error("a sphere reaches farther from the camera than 1.8e18, or is not finite");
+    impl_->add_user({sphere});
+}
+void Accelerator::add_disk(const AnalyticDisk& disk) {
+    if (!(length(disk.center) + length(disk.s) + length(disk.t) < kLargestCoordinate))
+        throw Error("a disk reaches farther from the camera than 1.8e18, or is not finite");
+    impl_->add_user({disk});
+}
 
 void Accelerator::commit() {
     rtcCommitScene(impl_->scene);

@@ -87,7 +87,8 @@ void compile_lights(Scene& scene, glm::dvec3 origin) {
         light.geometry = static_cast<std::uint32_t>(i);
         const double area = make_surface_light(scene, d.shapes[i], i, light);
         light.area = static_cast<float>(area);
-        if (!(light.area > 0.0f) || !std::isfinite(light.area))
+        // A denormal area is zero to a renderer that flushes denormals.
+        if (!(light.area >= 1e-37f) || !std::isfinite(light.area))
             throw Error(d.shapes[i].where.text() + ": a light of area " + std::to_string(area) + " m^2; it must be positive (and at least 1e-37)");
         light.radiance = texture_ref(scene, d.shapes[i].emission->radiance);
         scene.geometries[i].light = static_cast<std::int32_t>(scene.lights.size());

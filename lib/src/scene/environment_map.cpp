@@ -60,7 +60,7 @@ EnvironmentMap::EnvironmentMap(const MapEnvironment& description) : width_(descr
 
 glm::vec2 EnvironmentMap::to_uv(Vec3f d) const noexcept {
     const Vec3f v{dot(axis_x_, d), dot(axis_y_, d), dot(axis_z_, d)};
-    float u = atan2_poly(v.x, -v.z) * (0.5f * kInvPi);
+    float u = atan2_poly(v.x, -v.z) * (0.5f * kInvPi) - 0.5f / static_cast<float>(width_);  // a texel's column is its middle
     if (u < 0.0f) u += 1.0f;
     if (!(u < 1.0f)) u = 0.0f;  // -1e-10 + 1 rounds to 1
     return {u, atan2_poly(std::sqrt(v.x * v.x + v.z * v.z), v.y) * kInvPi};
@@ -86,10 +86,10 @@ EnvironmentMap::Sample EnvironmentMap::sample(glm::vec2 u) const noexcept {
     const DiscreteSample column = columns_[row.index].sample(u.x);
     // Uniform in solid angle within the cell: linear in azimuth and in the cosine.
     const double c0 = row_cos_[row.index], c1 = row_cos_[row.index + 1];
-    const auto cos_theta = static_cast<float>(c0 + (c1 - c0) * row.u);
-    const float sin2 = 1.0f - cos_theta * cos_theta;
-    const float sin_theta = std::sqrt(sin2 > 0.0f ? sin2 : 0.0f);
-    const SinCos phi = sincos_turns((static_cast<float>(column.index) + column.u) / static_cast<float>(width_));
+    // In double: by the poles of a large map a row of cells spans only a few floats of the cosine.
+    const double c = c0 + (c1 - c0) * row.u, sin2 = (1.0 - c) * (1.0 + c);
+    const auto cos_theta = static_cast<float>(c), sin_theta = static_cast<float>(std::sqrt(sin2 > 0.0 ? sin2 : 0.0));
+    const SinCos phi = sincos_turns((static_cast<float>(column.index) + column.u + 0.5f) / static_cast<float>(width_));
     const Vec3f v{sin_theta * phi.sin, cos_theta, -sin_theta * phi.cos};
     const Vec3f d = axis_x_ * v.x + axis_y_ * v.y + axis_z_ * v.z;
     return {d, pdf(d)};

@@ -46,6 +46,7 @@ public:
 
     [[nodiscard]] glm::vec2 film() const noexcept { return {camera_[path_], camera_[kCapacity + path_]}; }
     [[nodiscard]] glm::vec2 lens() const noexcept {
+        if (plan_.lens < 0) return {0.0f, 0.0f};  // a kernel with a lens, a scene without
         const float* row = &camera_[static_cast<std::size_t>(plan_.lens) * kCapacity + path_];
         return {row[0], row[kCapacity]};
     }
@@ -79,6 +80,7 @@ private:
     static constexpr std::size_t kNoBounce = ~std::size_t{0};
 
     [[nodiscard]] float value(std::size_t bounce, std::int16_t offset, int k) noexcept {
+        if (offset < 0) return 0.0f;  // the kernel has an effect that the scene lacks: it draws a number and does not use it
         const auto row = static_cast<std::size_t>(offset + k);
         if (bounce < kBlockBounces) {
             if (!filled_[bounce]) {

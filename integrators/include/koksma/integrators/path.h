@@ -26,11 +26,11 @@ struct NoObserver {
     void roulette(float, float, bool) noexcept {}
 };
 
-/// True if Embree may see the ray: finite, and with a direction.
+/// True if Embree may see the ray: finite, with a direction, and within the 1.844e18 beyond which it asserts.
 [[nodiscard]] inline bool is_traceable(const Ray& ray) noexcept {
-    // Any NaN or infinity makes this product a NaN.
-    const float zero = (ray.o.x + ray.o.y + ray.o.z + ray.d.x + ray.d.y + ray.d.z) * 0.0f;
-    return zero == 0.0f && dot(ray.d, ray.d) > 0.0f;
+    constexpr float kLimit2 = 3.4e36f;  // the square of 1.844e18; a NaN fails every comparison
+    const float o2 = dot(ray.o, ray.o), d2 = dot(ray.d, ray.d);
+    return o2 < kLimit2 && d2 < kLimit2 && d2 > 0.0f;
 }
 
 /// The radiance along one camera sample: emission, next-event estimation and BSDF sampling combined by the power heuristic,

@@ -10,8 +10,8 @@
 namespace koksma {
 
 /// Bilinear interpolation of radiance over direction, importance-sampled by cell. Mitsuba's convention: in the map's own
-/// space +y is up, column j lies at azimuth 2 pi j / width measured from -z towards +x, row i at polar angle pi i / (height - 1):
-/// the first and the last row are the poles.
+/// space +y is up, column j lies at azimuth 2 pi (j + 1/2) / width measured from -z towards +x, row i at polar angle
+/// pi i / (height - 1): the first and the last row are the poles.
 class EnvironmentMap {
 public:
     explicit EnvironmentMap(const MapEnvironment& description);

@@ -75,6 +75,14 @@ template <EffectSet kEffects>
 
 namespace detail {
 
+/// The end of a shadow ray on a light's surface, moved off it to the side of `side`. Beyond the error of the point itself, Embree
+/// rounds differences between the ray's origin and the light's vertices, so its error at the light grows with the distance:
+/// 8 roundings of it (2 in the direction, 6 in the plane's dot product and quotient). Without this, 0.16 % of the shadow
+/// rays to a rectangle 4 m away met the rectangle.
+[[nodiscard]] inline Vec3f shadow_target(const Surface& s, float distance, Vec3f side) noexcept {
+    return offset_origin(s.p, s.p_error + Vec3f(distance * error_gamma(8)), s.ng, side);
+}
+
 /// Completes a sample whose point on the light is known.
 template <EffectSet kEffects>
 [[nodiscard]] LightSample toward(const Scene& scene, const Light& light, const Surface& s, Vec3f p, float pdf_cone) noexcept {
@@ -86,7 +94,7 @@ template <EffectSet kEffects>
     if (!(dot(out.wi, s.shading.n) < 0.0f)) return {};
     out.pdf_w = pdf_cone > 0.0f ? pdf_cone : area_to_solid_angle(d2, std::fabs(dot(s.ng, out.wi)), light.area);
     out.radiance = texture_value<kEffects>(scene, light.radiance, s.uv);
-    out.target = offset_origin(s.p, s.p_error, s.ng, -d);
+    out.target = shadow_target(s, std::sqrt(d2), -d);
     return out;
 }
 
@@ -134,7 +142,7 @@ template <EffectSet kEffects>
             out.wi = wi;
             out.pdf_w = 1.0f / (2.0f * kPi * h);
             out.radiance = texture_value<kEffects>(scene, light.radiance, s.uv);
-            out.target = offset_origin(s.p, s.p_error, s.ng, s.ng);
+            out.target = detail::shadow_target(s, static_cast<float>(t), s.ng);
             return out;
         }
     if constexpr (kEffects.has(Effect::area_light)) {

@@ -1,0 +1,66 @@
+#include "measure.h"
+
+#include "machine.h"
+
+#include <koksma/measure/metrics.h>
+#include <koksma/measure/seeds.h>
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace koksma {
+
+Row measure(const BenchScene& s, const SamplerFactory& sampler, const Reference& reference, std::uint64_t spp, int replicate, std::uint64_t base_seed, int threads,
+            std::vector<float>& image) {
+    const std::uint64_t seed = test_seed(base_seed, s.key.scene_hash, sampler.name(), spp, static_cast<std::uint64_t>(replicate));
+    const auto source = sampler.bind(sampling_plan(s.scene, s.plan, spp, seed));
+    RenderOptions options;
+    options.threads = threads;
+    const RenderResult result = render(s.scene, s.plan, *source, {s.what.crop, 0, spp}, options);
+    image = result.film.image();
+    const ReferenceError error = compare_to_reference(image, reference.mean, reference.variance);
+    static const Machine kMachine = machine();
+    const Vec3d mean = result.film.mean();
+    Row row;
+    row.scene = s.what.name;
+    row.scene_hash = fmt::format("{:016x}", s.key.scene_hash);
+    row.sampler = sampler.name();
+    row.sampler_version = sampler.info().version;
+    row.randomized = sampler.randomized();
+    row.spp = spp;
+    row.seed = seed;
+    row.replicate = replicate;
+    row.film[0] = s.scene.film.width;
+    row.film[1] = s.scene.film.height;
+    const int crop[4] = {s.what.crop.x, s.what.crop.y, s.what.crop.width, s.what.crop.height};
+    std::copy(crop, crop + 4, row.crop);
+    row.max_depth = s.plan.integrator.max_depth;
+    row.rr_depth = s.plan.integrator.rr_depth;
+    row.effects = s.plan.effects.names();
+    row.dimensions = s.plan.layout.dimensions();
+    row.kernel = result.stats.kernel;
+    row.mse = error.mse;
+    row.mse_raw = error.mse_raw;
+    row.rmse = error.mse > 0.0 ? std::sqrt(error.mse) : 0.0;
+    row.relmse = error.relmse;
+    row.relmse_raw = error.relmse_raw;
+    row.mean_rgb[0] = mean.x;
+    row.mean_rgb[1] = mean.y;
+    row.mean_rgb[2] = mean.z;
+    row.wall_seconds = result.stats.wall_seconds;
+    row.cpu_seconds = result.stats.cpu_seconds;
+    row.sampler_seconds = result.stats.sampler_seconds;
+    row.paths = result.stats.paths;
+    row.rays = result.stats.rays.closest + result.stats.rays.shadow;
+    row.invalid_samples = result.stats.invalid_samples;
+    row.threads = threads > 0 ? threads : kMachine.cores;
+    row.estimator_version = kEstimatorVersion;
+    row.reference = s.key.digest();
+    row.commit = commit();
+    row.machine = kMachine.cpu;
+    row.isa = kMachine.isa;
+    return row;
+}
+
+}  // namespace koksma
