@@ -140,6 +140,7 @@ int run_bench(const BenchCommand& command, const Registry& registry, const std::
                 for (std::size_t k = 0; k < experiment.spp.size(); ++k) {
                     if (replicate >= experiment.replicates[k]) continue;
                     for (const auto& sampler : samplers) {
+                        if (replicate > 0 && !sampler->randomized()) continue;  // it would be the same render again
                         std::vector<float> image;
                         rows.push_back(measure(s, *sampler, reference, experiment.spp[k], replicate, experiment.seed, command.threads, image));
                         partial.add(rows.back());

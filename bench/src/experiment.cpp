@@ -1,5 +1,7 @@
 #include "experiment.h"
 
+#include "json_error.h"
+
 #include <koksma/sampling/error.h>
 
 #include <fmt/format.h>
@@ -101,7 +103,7 @@ Json parse(const std::filesystem::path& file) {
     try {
         return Json::parse(in);
     } catch (const Json::parse_error& e) {
-        throw Error(fmt::format("{}: {}", file.string(), e.what()));
+        throw Error(fmt::format("{}: {}", file.string(), text_of(e)));
     }
 }
 

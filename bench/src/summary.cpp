@@ -1,5 +1,7 @@
 #include "summary.h"
 
+#include "json_error.h"
+
 #include <koksma/measure/ratio.h>
 #include <koksma/measure/rmse_estimate.h>
 #include <koksma/measure/slope.h>
@@ -192,7 +194,7 @@ void read_results(const std::filesystem::path& file, Json& header, std::vector<R
             else if (json.at("kind") == "render")
                 rows.push_back(json.get<Row>());
         } catch (const Json::exception& e) {
-            throw Error(fmt::format("{}:{}: not a row of results: {}", file.string(), number, e.what()));
+            throw Error(fmt::format("{}:{}: not a row of results: {}", file.string(), number, text_of(e)));
         }
     }
     if (header.is_null() || rows.empty()) throw Error(fmt::format("{} holds no results", file.string()));

@@ -158,19 +158,19 @@ TEST_CASE("C8: the peak of GGX is 1 / (pi alpha^2) and falls off in time", "[har
 }
 
 TEST_CASE("C9: a highlight depends on the light's solid angle over alpha squared alone", "[hard]") {
-    // 30 degrees from the normal; the light is a sphere in the mirror direction.
-    struct Row {
-        double ratio, expected;
-    };
-    for (const Row& row : {Row{1e4, 0.9989}, Row{1e2, 0.8966}, Row{1.0, 0.08378}, Row{1e-2, 9.18e-4}})
+    // 30 degrees from the normal; the light is a sphere in the mirror direction. Where masking is 1 the answer is the GGX
+    // probability of the ellipse of slopes that reflect to it, with semi-axes theta / 2 and theta / (2 cos 30 deg):
+    // the mean over the circle of r^2 / (1 + r^2) is 1 / sqrt((1 + 4 pi / ratio) (1 + 4 pi cos^2(30 deg) / ratio)).
+    for (const double ratio : {1e4, 1e2, 1.0, 1e-2})
         for (const double alpha : {1e-4, 1e-3}) {
+            const double k = 4.0 * std::numbers::pi / ratio, expected = 1.0 / std::sqrt((1.0 + k) * (1.0 + 0.75 * k));
             SceneDescription d = plane_under_sky(rough(static_cast<float>(alpha)), 30);
             d.environment.reset();
             look_narrowly(d, {0.5, std::sqrt(0.75), 0}, {0, 0, 0}, 1e-6);
-            const double radius = std::sqrt(row.ratio * alpha * alpha / std::numbers::pi);
+            const double radius = std::sqrt(ratio * alpha * alpha / std::numbers::pi);
             add_light(d, SphereShape{}, translated({-0.5, std::sqrt(0.75), 0}) * scaled(radius), Rgb(1.0f));
-            INFO("ratio " << row.ratio << " alpha " << alpha);
-            check_mean(measure(d, 4096, 8), row.expected, 2e-3);
+            INFO("ratio " << ratio << " alpha " << alpha);
+            check_mean(measure(d, 4096, 8), expected, 2e-3);
         }
 }
 

@@ -67,15 +67,32 @@ TEST_CASE("D1: a sphere too small for a float direction to tell its points apart
 }
 
 TEST_CASE("D2: a small rectangle or disk lights the floor alike at every area", "[hard]") {
+    // The camera is right below the light: coordinates relative to it are exact.
+    const auto floor_from_above = [] {
+        SceneDescription d = empty_scene();
+        add_shape(d, RectangleShape{}, kUp, 0);
+        look_narrowly(d, {0, 0.5, 0}, {0, 0, 0}, 1e-6);
+        return d;
+    };
     for (const double half : {1e-4, 1e-5, 1e-6, 1e-7, 1e-9}) {
-        SceneDescription d = floor_seen_at(0, 1.0, 1e-6);
+        SceneDescription d = floor_from_above();
         add_light(d, RectangleShape{}, translated({0, 1, 0}) * scaled(half) * kDown, Rgb(static_cast<float>(kPiDouble / (4.0 * half * half))));
         INFO("rectangle of half side " << half);
         check_mean(measure(d, 64, 8), 0.5, 1e-6);
-        d = floor_seen_at(0, 1.0, 1e-6);
+        d = floor_from_above();
         add_light(d, DiskShape{}, translated({0, 1, 0}) * scaled(half) * kDown, Rgb(static_cast<float>(1.0 / (half * half))));
         INFO("disk of radius " << half);
         check_mean(measure(d, 64, 8), 0.5, 1e-6);
+    }
+}
+
+TEST_CASE("D2: a small rectangle away from the camera's axes keeps its power", "[hard]") {
+    for (const double half : {1e-3, 1e-4, 1e-5, 1e-6}) {
+        SceneDescription d = floor_seen_at(0, 1.0, 1e-6);
+        add_light(d, RectangleShape{}, translated({0, 1, 0}) * scaled(half) * kDown, Rgb(static_cast<float>(kPiDouble / (4.0 * half * half))));
+        INFO("rectangle of half side " << half);
+        // A square of side 2 h lights the point below it by 1 - 4/3 h^2 of a point's light.
+        check_mean(measure(d, 4096, 8), 0.5 * (1.0 - 4.0 / 3.0 * half * half), 1e-6);
     }
 }
 
@@ -111,7 +128,11 @@ TEST_CASE("D5: a light that touches the floor", "[hard]") {
         INFO("distance " << x);
         check_mean(measure(d, 8192, 8), 0.5 * f, 5e-3);
     }
-    SceneDescription d = floor_seen_at(0.1, 0.01, 1e-4);
+    // From within the wedge below the sphere, whose surface is 5 mm above the floor there.
+    SceneDescription d = empty_scene();
+    add_shape(d, RectangleShape{}, scaled(1e3) * kUp, 0);
+    look_narrowly(d, {0.1, 0.002, 0.01}, {0.1, 0, 0});
+    d.camera.near_clip = 1e-4;
     add_light(d, SphereShape{}, translated({0, 1, 0}), Rgb(1.0f));
     check_mean(measure(d, 8192, 8), 0.5 / std::pow(1.01, 1.5), 5e-3);
 }
@@ -156,6 +177,18 @@ TEST_CASE("D12: a sphere that shines outwards is black from inside", "[hard]") {
 
 TEST_CASE("D13: a point light close to the floor", "[hard]") {
     for (const double h : {1e-2, 1e-3, 1e-4, 1e-5, 1e-6}) {
+        SceneDescription d = empty_scene();
+        add_shape(d, RectangleShape{}, kUp, 0);
+        look_narrowly(d, {0, 7 * h, 7 * h}, {0, 0, 0});
+        d.camera.near_clip = h;
+        d.point_lights.push_back({{0, h, 0}, Rgb(static_cast<float>(kPiDouble * h * h)), {}});
+        INFO("height " << h);
+        check_mean(measure(d, 64, 4), 0.5, 1e-4);
+    }
+}
+
+TEST_CASE("D13: a point light close to a floor of a kilometre", "[hard]") {
+    for (const double h : {1e-2, 1e-3, 1e-4}) {
         SceneDescription d = floor_seen_at(0, 10.0 * h, 1e-3);
         d.camera.near_clip = h;
         d.point_lights.push_back({{0, h, 0}, Rgb(static_cast<float>(kPiDouble * h * h)), {}});

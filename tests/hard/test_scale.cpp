@@ -48,11 +48,21 @@ TEST_CASE("B2: a furnace shows 2 up to a size of 1e9", "[hard]") {
     }
 }
 
-TEST_CASE("B2: a furnace shows 2 at any size that compiles, up to Embree's limit", "[hard]") {
+TEST_CASE("B2: a furnace shows 2 at a size of 1e12, and a sphere beyond", "[hard]") {
+    check_mean(measure(scaled_furnace(CubeShape{}, 1e12), 512, 8), 2.0, 3e-3);
     for (const double radius : {1e12, 1e15, 9e17}) {
         INFO("radius " << radius);
-        check_mean(measure(scaled_furnace(CubeShape{}, radius), 512, 8), 2.0, 3e-3);
         check_mean(measure(scaled_furnace(SphereShape{}, radius), 512, 8), 2.0, 3e-3);
+    }
+}
+
+TEST_CASE("B2: a mesh too large for Embree's arithmetic is refused or right", "[hard]") {
+    // Its triangle test multiplies three coordinates: beyond the cube root of 3e38 there are no hits for a finite far plane.
+    for (const double radius : {1e13, 1e15}) {
+        const SceneDescription d = scaled_furnace(CubeShape{}, radius);
+        if (!compile_error(d).empty()) continue;
+        INFO("radius " << radius);
+        check_mean(measure(d, 512, 8), 2.0, 3e-3);
     }
 }
 
@@ -99,10 +109,10 @@ TEST_CASE("B5: no ray to an edge of a closed cube gets out", "[hard]") {
                 const Ray ray{o, normalize((p - o) * static_cast<float>(1.0 / scale))};
                 misses += !scene.accelerator.intersect(ray).valid();
             };
-            // 12 edges and 6 diagonals, one a face.
+            // 12 edges and the 12 diagonals of the faces: 400 008 rays.
             for (int axis = 0; axis < 3; ++axis)
-                for (int k = 0; k < 2500; ++k) {
-                    const double t = -1.0 + 2.0 * (k + 0.5) / 2500.0;
+                for (int k = 0; k < 16667; ++k) {
+                    const double t = -1.0 + 2.0 * (k + 0.5) / 16667.0;
                     glm::dvec3 p;
                     p[axis] = t;
                     for (const double s1 : {-1.0, 1.0})
@@ -112,7 +122,7 @@ TEST_CASE("B5: no ray to an edge of a closed cube gets out", "[hard]") {
                             shoot(p);
                         }
                     for (const double s : {-1.0, 1.0})
-                        for (const double sign : {-1.0, 1.0}) {
+                        for (const double sign : {-1.0, 1.0}) {  // one of the two is the edge that the triangles share
                             p[axis] = s;
                             p[(axis + 1) % 3] = t;
                             p[(axis + 2) % 3] = sign * t;
@@ -185,11 +195,13 @@ TEST_CASE("B9: rays that Embree may not see are kept from it", "[hard]") {
 }
 
 TEST_CASE("B10: denormal geometry is missed and denormal light is lost without an error", "[hard]") {
-    SceneDescription tiny = furnace(CubeShape{}, scaled(1e-20), 0.5f, 1.0f);
+    SceneDescription tiny = empty_scene();
+    add_shape(tiny, CubeShape{}, scaled(1e-20), 0);
+    tiny.environment = ConstantEnvironment{};
     tiny.camera.near_clip = 1e-24;
     const Measured m = measure(tiny, 64, 2);
     CHECK(m.invalid == 0);
-    CHECK(m.mean <= 2.1);
+    CHECK(m.mean <= 1.0);
     for (const float le : {1e-40f, 1e-38f}) {
         SceneDescription d = empty_scene();
         add_light(d, RectangleShape{}, translated({0, 1, 0}) * kDown, Rgb(le));

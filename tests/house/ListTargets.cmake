@@ -1,0 +1,23 @@
+# koksma_list_targets(<file>): at generate time, one line a compiled target of the project: name|compile options|flags of the build type
+function(koksma_list_targets file)
+  set(lines "")
+  koksma_targets_below(targets ${PROJECT_SOURCE_DIR})
+  foreach(target IN LISTS targets)
+    get_target_property(type ${target} TYPE)
+    # koksma_catch is Catch's main function, not code of ours.
+    if(type MATCHES "^(STATIC|SHARED|MODULE|OBJECT)_LIBRARY$|^EXECUTABLE$" AND NOT target STREQUAL "koksma_catch")
+      string(APPEND lines "${target}|$<JOIN:$<TARGET_PROPERTY:${target},COMPILE_OPTIONS>, >|${CMAKE_CXX_FLAGS}\n")
+    endif()
+  endforeach()
+  file(GENERATE OUTPUT ${file} CONTENT "${lines}")
+endfunction()
+
+function(koksma_targets_below out folder)
+  get_property(targets DIRECTORY ${folder} PROPERTY BUILDSYSTEM_TARGETS)
+  get_property(subfolders DIRECTORY ${folder} PROPERTY SUBDIRECTORIES)
+  foreach(subfolder IN LISTS subfolders)
+    koksma_targets_below(more ${subfolder})
+    list(APPEND targets ${more})
+  endforeach()
+  set(${out} ${targets} PARENT_SCOPE)
+endfunction()

@@ -1,0 +1,17 @@
+# Every target is compiled without fused multiply-add and without fast-math. Run as: cmake -DTARGETS=<file> -P check_flags.cmake
+# The file is that of koksma_list_targets().
+cmake_minimum_required(VERSION 3.22)
+file(STRINGS ${TARGETS} lines)
+list(LENGTH lines count)
+if(count LESS 5)
+  message(FATAL_ERROR "only ${count} targets are listed in ${TARGETS}")
+endif()
+foreach(line IN LISTS lines)
+  if(NOT line MATCHES "^[^|]+\\|[^|]*-ffp-contract=off")
+    message(SEND_ERROR "without -ffp-contract=off: ${line}; use koksma_target()")
+  endif()
+  if(line MATCHES "-ffast-math|-Ofast|-funsafe-math|-fassociative-math|-ffp-contract=(fast|on)|-march=native")
+    message(SEND_ERROR "a flag that changes arithmetic: ${line}")
+  endif()
+endforeach()
+message(STATUS "${count} targets have the flags")
