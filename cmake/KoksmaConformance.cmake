@@ -1,0 +1,12 @@
+# koksma_add_conformance(<target> SAMPLERS ALL | <name>...)
+#   A program that runs every conformance check on the samplers, prints what was found, and fails if one is not met.
+function(koksma_add_conformance target)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SAMPLERS")
+  if(NOT arg_SAMPLERS)
+    set(arg_SAMPLERS ALL)
+  endif()
+  add_executable(${target} ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/conformance_main.cpp)
+  koksma_target(${target})
+  target_link_libraries(${target} PRIVATE koksma::conformance)
+  koksma_link_samplers(${target} ${arg_SAMPLERS})
+endfunction()

@@ -1,0 +1,222 @@
+// Direct light three ways: by light sampling, by BSDF sampling, and by both with the power heuristic. Each is an estimate of one
+// integral; a density that lies shows in the third even where the first two are right.
+
+#include "render_scene.h"
+#include "uniform.h"
+
+using namespace koksma;
+using namespace koksma::testing;
+
+namespace {
+
+constexpr EffectSet kAll = EffectSet::all();
+
+/// Luminous kinds that are tested against every BSDF.
+enum class Kind { rectangle, sphere, inward_sphere, disk, mesh, textured, point, constant, map };
+constexpr Kind kKinds[] = {Kind::rectangle, Kind::sphere, Kind::inward_sphere, Kind::disk, Kind::mesh, Kind::textured, Kind::point, Kind::constant, Kind::map};
+constexpr const char* kNames[] = {"rectangle", "sphere", "inward sphere", "disk", "mesh", "textured rectangle", "point", "constant sky", "environment map"};
+
+void add_lamp(SceneDescription& d, Kind kind) {
+    // In the mirror direction of the camera, more or less.
+    const Matrix at = translated({-1.2, 1.3, 0.1}) * rotated({0, 0, 1}, -40) * scaled(0.6) * kDown;
+    switch (kind) {
+        case Kind::rectangle: add_light(d, RectangleShape{}, at, Rgb(2.0f)); break;
+        case Kind::sphere: add_light(d, SphereShape{}, at, Rgb(2.0f)); break;
+        case Kind::inward_sphere: add_light(d, SphereShape{}, translated({0.3, 0.2, -0.1}) * scaled(4), Rgb(0.5f)).flip_normals = true; break;
+        case Kind::disk: add_light(d, DiskShape{}, at * scaled({1.2, 0.7, 1}), Rgb(2.0f)); break;
+        case Kind::mesh:
+            add_light(d, mesh({{-1, -1, 0}, {1, -1, 0}, {0.5f, 1, 0.3f}, {-1.5f, 0.5f, -0.2f}, {0, 0, 0}}, {{0, 1, 2}, {0, 2, 3}, {4, 4, 1}}), at, Rgb(2.0f));
+            break;
+        case Kind::textured: {
+            BitmapTexture t;
+            t.image = image(4, 2, {Rgb(0.0f), Rgb(4.0f), Rgb(1.0f), Rgb(9.0f), Rgb(0.2f), Rgb(3.0f), Rgb(0.0f), Rgb(7.0f)});
+            t.wrap = BitmapTexture::Wrap::mirror;
+            add_light(d, RectangleShape{}, at, t);
+            break;
+        }
+        case Kind::point: d.point_lights.push_back({{-1.2, 1.3, 0.1}, Rgb(2.0f), {}}); break;
+        case Kind::constant: d.environment = ConstantEnvironment{}; break;
+        case Kind::map: {
+            MapEnvironment m;
+            std::vector<Rgb> texels;
+            for (int y = 0; y < 8; ++y)
+                for (int x = 0; x < 16; ++x) texels.emplace_back(x == 5 && y == 2 ? 20.0f : (x * y) % 5 == 0 ? 0.0f : 0.1f * static_cast<float>(x));
+            m.image = image(16, 8, std::move(texels));
+            m.to_world = rotated({0.6, 0.8, 0}, 50);
+            d.environment = m;
+            break;
+        }
+    }
+}
+
+struct Case {
+    std::string name;
+    OneSidedMaterial material;
+    bool two_sided = false, from_behind = false;
+};
+
+std::vector<Case> cases() {
+    const auto rough = [](RoughConductor::Distribution distribution, float u, float v) {
+        RoughConductor r;
+        r.distribution = distribution;
+        r.alpha_u = Rgb(u);
+        r.alpha_v = Rgb(v);
+        r.base.perfect = false;
+        r.base.eta = Rgb(1.66f, 0.88f, 0.52f);
+        r.base.k = Rgb(9.2f, 6.3f, 4.8f);
+        return r;
+    };
+    using enum RoughConductor::Distribution;
+    return {{"diffuse", Diffuse{Rgb(0.7f)}},
+            {"ggx 0.7", rough(ggx, 0.7f, 0.7f)},
+            {"ggx 0.2", rough(ggx, 0.2f, 0.2f)},
+            {"ggx 0.03", rough(ggx, 0.03f, 0.03f)},
+            {"ggx 0.4 x 0.1", rough(ggx, 0.4f, 0.1f)},
+            {"beckmann 0.5", rough(beckmann, 0.5f, 0.5f)},
+            {"beckmann 0.1", rough(beckmann, 0.1f, 0.1f)},
+            {"beckmann 0.1 x 0.3", rough(beckmann, 0.1f, 0.3f)},
+            {"two-sided diffuse from behind", Diffuse{Rgb(0.7f)}, true, true},
+            {"two-sided ggx 0.2 from behind", rough(ggx, 0.2f, 0.2f), true, true}};
+}
+
+SceneDescription scene_of(const Case& c, Kind kind) {
+    SceneDescription d = empty_scene();
+    const std::uint32_t m = add_material(d, c.material, c.two_sided);
+    add_shape(d, RectangleShape{}, scaled(2) * (c.from_behind ? kDown : kUp), m);
+    add_lamp(d, kind);
+    // Something in the way of a part of the light.
+    const std::uint32_t black = add_diffuse(d, 0.0f);
+    add_shape(d, SphereShape{}, translated({-0.7, 0.7, 0.4}) * scaled(0.15), black);
+    look_narrowly(d, {1.1, 1.2, 0}, {0, 0, 0}, 1e-4);
+    d.integrator.max_depth = 2;
+    return d;
+}
+
+/// The three estimates at the point that the camera sees.
+class Point {
+public:
+    explicit Point(const Scene& scene) : scene_(scene) {
+        const Ray ray = camera_ray<kAll>(scene, {0, 0}, {0.5f, 0.5f}, {0.5f, 0.5f});
+        surface_ = surface_at<kAll>(scene, ray, scene.accelerator.intersect(ray));
+        local_ = bsdf_at<kAll>(scene, surface_, -ray.d);
+        wo_ = local_.frame.to_local(-ray.d);
+    }
+    /// One sample of light sampling, weighted or not; green.
+    [[nodiscard]] double by_light(Uniform& u, bool weighted) const {
+        const DiscreteSample choice = scene_.light_choice.sample(u());
+        const LightSample s = sample_light<kAll>(scene_, scene_.lights[choice.index], surface_.p, u.pair());
+        if (!(s.pdf_w > 0.0f)) return 0.0;
+        const BsdfValue f = eval_bsdf<kAll>(local_.bsdf, wo_, local_.frame.to_local(s.wi));
+        if (!(max_component(f.f_cos) > 0.0f)) return 0.0;
+        Ray shadow;
+        shadow.o = offset_origin(surface_.p, surface_.p_error, surface_.ng, s.wi);
+        shadow.d = s.at_infinity ? s.wi : s.target - shadow.o;
+        shadow.t_far = s.at_infinity ? kInfinity : 1.0f;
+        if (scene_.accelerator.occluded(shadow)) return 0.0;
+        const float pdf = s.pdf_w * choice.probability;
+        return f.f_cos.y * s.radiance.y / pdf * (weighted && !s.delta ? power_heuristic(pdf, f.pdf_w) : 1.0f);
+    }
+    [[nodiscard]] double by_bsdf(Uniform& u, bool weighted) const {
+        const BsdfSample s = sample_bsdf<kAll>(local_.bsdf, wo_, u(), u.pair());
+        if (!(s.pdf_w > 0.0f)) return 0.0;
+        const Vec3f wi = local_.frame.to_world(s.wi);
+        const Ray ray{offset_origin(surface_.p, surface_.p_error, surface_.ng, wi), wi};
+        const Hit hit = scene_.accelerator.intersect(ray);
+        Vec3f le{0.0f};
+        float pdf_light = 0.0f;
+        if (hit.valid()) {
+            const Surface there = surface_at<kAll>(scene_, ray, hit);
+            le = emitted<kAll>(scene_, there, -wi);
+            if (!(max_component(le) > 0.0f)) return 0.0;
+            const auto light = static_cast<std::uint32_t>(scene_.geometries[there.geometry].light);
+            pdf_light = light_pdf<kAll>(scene_, scene_.lights[light], surface_.p, there, wi) * scene_.light_choice.probability(light);
+        } else if (scene_.environment_light >= 0) {
+            le = environment_radiance<kAll>(scene_, wi);
+            pdf_light = environment_pdf<kAll>(scene_, wi) * scene_.light_choice.probability(static_cast<std::uint32_t>(scene_.environment_light));
+        }
+        return s.weight.y * le.y * (weighted ? power_heuristic(s.pdf_w, pdf_light) : 1.0f);
+    }
+
+private:
+    const Scene& scene_;
+    Surface surface_;
+    LocalBsdf local_;
+    Vec3f wo_;
+};
+
+/// Mean and standard error of n independent draws.
+template <class F>
+Measured average(int n, F&& draw) {
+    double sum = 0, squares = 0;
+    for (int i = 0; i < n; ++i) {
+        const double x = draw();
+        sum += x;
+        squares += x * x;
+    }
+    Measured m;
+    m.mean = sum / n;
+    m.standard_error = std::sqrt(std::max(0.0, squares / n - m.mean * m.mean) / (n - 1));
+    m.replicates = n;
+    return m;
+}
+
+}  // namespace
+
+TEST_CASE("light sampling, BSDF sampling and both agree with the path kernel, for every light and BSDF", "[scenes]") {
+    constexpr int kDraws = 1 << 15;
+    std::uint32_t seed = 1;
+    for (const Case& c : cases())
+        for (const Kind kind : kKinds) {
+            const Ready ready(scene_of(c, kind));
+            const Point point(ready.scene);
+            Uniform u(seed++);
+            const Measured light = average(kDraws, [&] { return point.by_light(u, false); });
+            const Measured bsdf = average(kDraws, [&] { return point.by_bsdf(u, false); });
+            const Measured both = average(kDraws, [&] { return point.by_light(u, true) + point.by_bsdf(u, true); });
+            const Measured kernel = measure(ready, 2048, 8);
+            INFO(c.name << " under " << kNames[static_cast<int>(kind)] << ": light " << light.mean << " +- " << light.standard_error << ", BSDF " << bsdf.mean
+                        << " +- " << bsdf.standard_error << ", both " << both.mean << " +- " << both.standard_error << ", kernel " << kernel.mean
+                        << " +- " << kernel.standard_error);
+            // Five standard errors of the difference, and 2e-4 for float.
+            const auto agree = [](const Measured& a, const Measured& b) {
+                return std::fabs(a.mean - b.mean) <= 5.0 * std::hypot(a.standard_error, b.standard_error) + 2e-4 * std::fabs(b.mean);
+            };
+            CHECK(kernel.mean > 0.0);
+            CHECK(kernel.invalid == 0);
+            CHECK(agree(light, kernel));
+            if (kind == Kind::point) {
+                CHECK(bsdf.mean == 0.0);
+            } else {
+                CHECK(agree(bsdf, kernel));
+                CHECK(agree(bsdf, light));
+            }
+            CHECK(agree(both, kernel));
+            CHECK(both.standard_error <= 0.02 * both.mean);
+        }
+}
+
+TEST_CASE("light sampling and light_pdf give one density", "[scenes]") {
+    for (const Kind kind : {Kind::rectangle, Kind::sphere, Kind::inward_sphere, Kind::disk, Kind::mesh, Kind::textured}) {
+        const Ready ready(scene_of(cases()[0], kind));
+        const Vec3f p{0.0f, -1.2f, 0.0f};  // relative to the camera
+        const Light& light = ready.scene.lights[0];
+        Uniform u(7);
+        double worst = 0;
+        int tested = 0;
+        for (int i = 0; i < 4000; ++i) {
+            const LightSample s = sample_light<kAll>(ready.scene, light, p, u.pair());
+            if (!(s.pdf_w > 0.0f)) continue;
+            const Ray ray{p, s.wi};
+            const Hit hit = ready.scene.accelerator.intersect(ray);
+            if (!hit.valid() || hit.geometry != light.geometry) continue;
+            const Surface there = surface_at<kAll>(ready.scene, ray, hit);
+            if (std::fabs(dot(there.ng, s.wi)) < 0.02f) continue;  // there the density per area is ill-conditioned
+            worst = std::max(worst, std::fabs(double{light_pdf<kAll>(ready.scene, light, p, there, s.wi)} / s.pdf_w - 1.0));
+            ++tested;
+        }
+        INFO(kNames[static_cast<int>(kind)] << ": worst relative difference " << worst << " of " << tested);
+        CHECK(tested > 500);
+        // Directions in float, 6e-8, over a cosine of 0.02 and more.
+        CHECK(worst < 5e-5);
+    }
+}
