@@ -25,7 +25,7 @@ find_package(Threads REQUIRED)
 find_path(KOKSMA_STB_INCLUDE_DIR stb_image.h PATH_SUFFIXES stb REQUIRED)
 mark_as_advanced(KOKSMA_STB_INCLUDE_DIR)
 add_library(koksma_stb INTERFACE)
-target_include_directories(koksma_stb SYSTEM INTERFACE ${KOKSMA_STB_INCLUDE_DIR})
+target_include_directories(koksma_stb SYSTEM INTERFACE $<BUILD_INTERFACE:${KOKSMA_STB_INCLUDE_DIR}>)
 
 if(KOKSMA_MICRO_BENCHMARKS)
   find_package(benchmark REQUIRED CONFIG)

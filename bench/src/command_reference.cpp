@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <cstdio>
+
 namespace koksma {
 
 int run_reference(const ReferenceCommand& command, const Registry& registry) {
@@ -31,6 +33,7 @@ int run_reference(const ReferenceCommand& command, const Registry& registry) {
         save_reference(file, reference);
         fmt::print("{:<10} {} spp in two halves, standard error {:.3e}, largest z between the halves {:.2f}: {}\n", scene.what.name, reference.spp_total(),
                    reference.standard_error(), require_agreement(reference), file.string());
+        std::fflush(stdout);
     }
     return 0;
 }

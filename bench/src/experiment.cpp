@@ -143,6 +143,9 @@ void check(const Experiment& e) {
 
 std::filesystem::path data_directory() {
     if (const char* dir = std::getenv("KOKSMA_DATA_DIR")) return dir;
+    std::error_code none;  // installed: bin/koksma and share/koksma
+    const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", none);
+    if (std::filesystem::path data = program.parent_path().parent_path() / "share" / "koksma"; !none && std::filesystem::is_directory(data / "bench", none)) return data;
     return KOKSMA_SOURCE_DIR;
 }
 

@@ -44,7 +44,7 @@ struct Experiment {
 [[nodiscard]] Experiment quick(Experiment experiment);
 
 /// Root of the data that ships with the program (scenes, experiments, references, the report's Python): the environment variable
-/// KOKSMA_DATA_DIR, else the source tree.
+/// KOKSMA_DATA_DIR, else ../share/koksma beside an installed program's folder, else the source tree.
 [[nodiscard]] std::filesystem::path data_directory();
 
 }  // namespace koksma

@@ -1,5 +1,5 @@
 # Builds Koksma as an outsider would and uses the result. Run as:
-#   cmake -DMODE=sampler_dirs|subdirectory -DSOURCE=<Koksma> -DWORK=<scratch> -DGENERATOR=Ninja -DCOMPILER=<c++> -P test_package.cmake
+#   cmake -DMODE=sampler_dirs|subdirectory|installed -DSOURCE=<Koksma> -DWORK=<scratch> -DGENERATOR=Ninja -DCOMPILER=<c++> -P test_package.cmake
 # The scratch folder stays, so that a second run is quick; what is tested is copied there first: nothing may lie in the tree.
 cmake_minimum_required(VERSION 3.22)
 
@@ -59,14 +59,31 @@ if(MODE STREQUAL "sampler_dirs")
   if(count LESS 5)
     message(FATAL_ERROR "golden is there, but not the samplers of the tree: ${out}")
   endif()
-elseif(MODE STREQUAL "subdirectory")
-  run(${configure} -S outside_project -B build -DKOKSMA_SOURCE=${SOURCE})
+elseif(MODE MATCHES "^(subdirectory|installed)$")
+  if(MODE STREQUAL "subdirectory")
+    run(${configure} -S outside_project -B build -DKOKSMA_SOURCE=${SOURCE})
+  else()
+    run(${configure} -S ${SOURCE} -B koksma -DKOKSMA_TESTS=OFF -DKOKSMA_MICRO_BENCHMARKS=OFF)
+    run(${CMAKE_COMMAND} --build koksma)
+    # Installed, then moved: neither the source tree nor the prefix may be remembered.
+    file(REMOVE_RECURSE ${WORK}/prefix ${WORK}/moved ${WORK}/build)
+    run(${CMAKE_COMMAND} --install koksma --prefix ${WORK}/prefix)
+    file(RENAME ${WORK}/prefix ${WORK}/moved)
+    run(${configure} -S outside_project -B build -DCMAKE_PREFIX_PATH=${WORK}/moved)
+  endif()
   run(${CMAKE_COMMAND} --build build)
   use(${WORK}/build/my_koksma)
   run(${WORK}/build/my_koksma samplers --json)
   string(JSON count LENGTH "${out}")
   if(NOT count EQUAL 2)
     message(FATAL_ERROR "expected golden and random alone: ${out}")
+  endif()
+  if(MODE STREQUAL "installed")
+    foreach(program IN ITEMS moved/bin/koksma build/my_koksma)  # data are found where they were installed: the message of a failing report tells
+      execute_process(COMMAND ${CMAKE_COMMAND} -E env KOKSMA_PYTHON=false ${WORK}/${program} report out WORKING_DIRECTORY ${WORK} OUTPUT_QUIET ERROR_VARIABLE err)
+      expect("${err}" "PYTHONPATH was ${WORK}/moved/share/koksma/bench")
+    endforeach()
+    run(${WORK}/moved/bin/koksma plan ${WORK}/moved/share/koksma/scenes/cornell.xml)
   endif()
   run(${WORK}/build/my_conformance)
   expect("${out}" "ok      golden: ")

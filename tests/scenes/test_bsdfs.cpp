@@ -124,10 +124,10 @@ TEST_CASE("the weight of a sample is f cos / pdf, and its density that of evalua
                 worst_pdf = std::max(worst_pdf, std::fabs(double{v.pdf_w} / s.pdf_w - 1.0));
             }
             INFO(c.name << " from " << degrees << " degrees: weight off by " << worst_weight << ", density by " << worst_pdf);
-            // Evaluation makes the half vector anew from directions in float: 6e-8 / alpha of a slope, more where slopes are large,
-            // and over the cosine of the half vector.
+            // Evaluation makes the half vector anew from directions in float: 6e-8 / alpha of a slope, more where slopes are large;
+            // and 6e-8 over the square of the cosine, 5e-5 at 88 degrees.
             const double alpha = c.bsdf.kind == BsdfKind::diffuse ? 1.0 : std::min(c.bsdf.facets.alpha_u, c.bsdf.facets.alpha_v);
-            CHECK(worst_weight <= 2e-5 + 2e-6 / alpha);
+            CHECK(worst_weight <= 1e-4 + 2e-6 / alpha);
             CHECK(worst_pdf <= 1e-4 + 1e-5 / alpha);
         }
 }
@@ -233,7 +233,14 @@ TEST_CASE("metals reflect by the complex Fresnel equations", "[scenes]") {
                                                   exact_conductor(c, static_cast<float>(eta), static_cast<float>(k))));
             }
     INFO("worst error " << worst);
-    CHECK(worst < 3e-6);
+    CHECK(worst < 1e-5);  // a difference of squares near 1
+    for (const float eta : {0.0f, 1e-3f, 0.5f, 0.999f, 1.0f, 1.001f, 1.5f})
+        for (const float k : {0.0f, 1e-6f, 1e-4f, 1e-2f, 1.0f})
+            for (int i = 1; i <= 1000; ++i) {
+                const float r = fresnel_conductor(static_cast<float>(i) / 1000.0f, eta, k);
+                REQUIRE(r >= 0.0f);
+                REQUIRE(r <= 1.000001f);
+            }
     for (const auto& [eta, k] : {std::pair{0.2f, 3.9f}, {1.66f, 9.2f}}) {
         const double normal = ((eta - 1.0) * (eta - 1.0) + k * k) / ((eta + 1.0) * (eta + 1.0) + k * k);
         CHECK(fresnel_conductor(1.0f, eta, k) == Approx(normal).epsilon(1e-5));

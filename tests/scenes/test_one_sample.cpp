@@ -10,13 +10,18 @@ using namespace koksma;
 using namespace koksma::testing;
 
 TEST_CASE("at one sample a pixel all randomised per-pixel samplers have the error of random", "[scenes]") {
-    for (const char* scene : {"smooth", "cornell", "veach"}) {
-        SceneDescription d = load_scene(std::filesystem::path(KOKSMA_SOURCE_DIR) / "scenes" / (std::string(scene) + ".xml"), {{"res", "40"}});
+    // Parts of the picture without emitters or fireflies, whose few pixels would carry all of the error and none of the evidence.
+    for (const char* scene : {"smooth", "cornell"}) {
+        SceneDescription d = load_scene(std::filesystem::path(KOKSMA_SOURCE_DIR) / "scenes" / (std::string(scene) + ".xml"), {{"res", "64"}});
+        d.film.crop_x = 20;
+        d.film.crop_y = 40;
+        d.film.crop_width = 24;
+        d.film.crop_height = 20;
         const Ready ready(d);
-        const std::vector<double> random = pixel_variances(ready, "random", 1, 32);
+        const std::vector<double> random = pixel_variances(ready, "random", 1, 64);
         for (const char* sampler : {"sobol:randomize=xor", "sobol:randomize=owen", "halton:randomize=cp", "halton:randomize=digits",
                                     "halton:randomize=owen", "stratified"}) {
-            const std::vector<double> other = pixel_variances(ready, sampler, 1, 32);
+            const std::vector<double> other = pixel_variances(ready, sampler, 1, 64);
             // Paired by pixel: both estimate the same variance there.
             std::vector<double> difference;
             double sum_random = 0, sum_other = 0;

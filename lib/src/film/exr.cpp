@@ -7,9 +7,12 @@
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
+#include <ImfIO.h>
 #include <ImfInputFile.h>
 #include <ImfOutputFile.h>
 #include <ImfStringAttribute.h>
+
+#include <fstream>
 
 namespace koksma {
 
@@ -35,6 +38,35 @@ void ExrImage::set_rgb(const std::vector<float>& interleaved) {
     }
 }
 
+namespace {
+
+/// Imf::OutputFile writes the last bytes in its destructor and swallows what goes wrong there (a full disk); close() tells.
+class OutputStream final : public Imf::OStream {
+public:
+    explicit OutputStream(const std::filesystem::path& file) : OStream(file.string().c_str()), out_(file, std::ios::binary) { check(); }
+    void write(const char c[], int n) override {
+        out_.write(c, n);
+        check();
+    }
+    std::uint64_t tellp() override { return static_cast<std::uint64_t>(static_cast<std::streamoff>(out_.tellp())); }
+    void seekp(std::uint64_t pos) override {
+        out_.seekp(static_cast<std::streamoff>(pos));
+        check();
+    }
+    void close() {
+        out_.close();
+        check();
+    }
+
+private:
+    void check() const {
+        if (!out_) throw Error("the disk is full or the folder is not writable");
+    }
+    std::ofstream out_;
+};
+
+}  // namespace
+
 void write_exr(const std::filesystem::path& file, const ExrImage& image) {
     write_atomically(file, [&](const std::filesystem::path& path) {
         const int full_width = image.display_width > 0 ? image.display_width : image.width;
@@ -52,9 +84,13 @@ void write_exr(const std::filesystem::path& file, const ExrImage& image) {
                          static_cast<std::ptrdiff_t>(sizeof(float)) * (image.data_x + std::ptrdiff_t{image.data_y} * image.width);
             frame.insert(name, Imf::Slice(Imf::FLOAT, base, sizeof(float), sizeof(float) * static_cast<std::size_t>(image.width)));
         }
-        Imf::OutputFile out(path.string().c_str(), header);
-        out.setFrameBuffer(frame);
-        out.writePixels(image.height);
+        OutputStream stream(path);
+        {
+            Imf::OutputFile out(stream, header);
+            out.setFrameBuffer(frame);
+            out.writePixels(image.height);
+        }
+        stream.close();
     });
 }
 

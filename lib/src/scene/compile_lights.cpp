@@ -15,6 +15,21 @@ constexpr double kPiDouble = std::numbers::pi;
 
 double mean_luminance(const Texture& t) { return luminance(mean(t)); }
 
+/// A scene made by hand may hold what the loader refuses; a NaN would be lost in the kernels' comparisons, and the light be black.
+void check_radiance(const Rgb& c, const SourceLocation& where) {
+    for (int i = 0; i < 3; ++i)
+        if (!(c[i] >= 0.0f) || !std::isfinite(c[i]))
+            throw Error(where.text() + ": radiance or intensity is " + std::to_string(c[i]) + "; it must be finite and not negative");
+}
+void check_radiance(const Image& image, const SourceLocation& where) {
+    for (const Rgb& texel : image.texels) check_radiance(texel, where);
+}
+void check_radiance(const Texture& t, const SourceLocation& where) {
+    if (const auto* constant = std::get_if<Rgb>(&t)) check_radiance(*constant, where);
+    if (const auto* bitmap = std::get_if<BitmapTexture>(&t)) check_radiance(*bitmap->image, where);
+    if (const auto* checks = std::get_if<CheckerboardTexture>(&t)) check_radiance(checks->color0, where), check_radiance(checks->color1, where);
+}
+
 /// Twice the area times the normal, in double.
 Vec3d area_vector(const Scene& scene, const std::array<std::uint32_t, 3>& t) {
     const Vec3d v0 = to_double(scene.positions[t[0]]);
@@ -84,6 +99,7 @@ void compile_lights(Scene& scene, glm::dvec3 origin) {
 
     for (std::size_t i = 0; i < d.shapes.size(); ++i) {
         if (!d.shapes[i].emission) continue;
+        check_radiance(d.shapes[i].emission->radiance, d.shapes[i].emission->where);
         Light light;
         light.geometry = static_cast<std::uint32_t>(i);
         const double area = make_surface_light(scene, d.shapes[i], i, light);
@@ -99,6 +115,7 @@ void compile_lights(Scene& scene, glm::dvec3 origin) {
         scene.lights.push_back(std::move(light));
     }
     for (const PointLight& p : d.point_lights) {
+        check_radiance(p.intensity, p.where);
         Light light;
         light.kind = LightKind::point;
         light.corner = Vec3f(glm::vec3(p.position - origin));
@@ -111,10 +128,13 @@ void compile_lights(Scene& scene, glm::dvec3 origin) {
         Light light;
         light.kind = LightKind::environment;
         if (const auto* map = std::get_if<MapEnvironment>(&*d.environment)) {
+            check_radiance(*map->image, map->where);
             scene.environment_map.emplace(*map);
             light.radiance.constant = scene.environment_map->mean_radiance();
         } else {
-            light.radiance.constant = std::get<ConstantEnvironment>(*d.environment).radiance;
+            const auto& constant = std::get<ConstantEnvironment>(*d.environment);
+            check_radiance(constant.radiance, constant.where);
+            light.radiance.constant = constant.radiance;
         }
         scene.environment_light = static_cast<std::int32_t>(scene.lights.size());
         scene.effects |= {Effect::environment};

@@ -41,8 +41,9 @@ struct DielectricFresnel {
     const float rs = (t1 - t2) / (t1 + t2);
     const float t3 = a2b2 * c2 + s2 * s2;
     const float t4 = t2 * s2;
-    const float rp = rs * (t3 - t4) / (t3 + t4);
-    return 0.5f * (rs + rp);
+    const float rp = t3 + t4 > 0.0f ? rs * (t3 - t4) / (t3 + t4) : rs;  // both zero: normal incidence on eta = k = 0
+    const float r = 0.5f * (rs + rp);
+    return r > 0.0f ? r : 0.0f;  // by an index of 1 rounding makes it -6e-8
 }
 
 }  // namespace koksma
