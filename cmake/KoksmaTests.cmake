@@ -25,6 +25,7 @@ function(koksma_add_test name)
   if(arg_SAMPLERS)
     koksma_link_samplers(test_${name} ${arg_SAMPLERS})
   endif()
-  catch_discover_tests(test_${name} TEST_PREFIX "${name}: " DISCOVERY_MODE PRE_TEST
-                       PROPERTIES LABELS "${arg_LABELS}" TIMEOUT 600)
+  # Catch's script takes its lists apart once more: the separators between labels must survive that.
+  string(REPLACE ";" "\\;" labels "${arg_LABELS}")
+  catch_discover_tests(test_${name} TEST_PREFIX "${name}: " DISCOVERY_MODE PRE_TEST PROPERTIES LABELS "${labels}" TIMEOUT 600)
 endfunction()

@@ -26,10 +26,19 @@ bool is_invalid(Vec3f radiance, InvalidSample::Kind& kind) noexcept {
     return bad;
 }
 
+/// The exact error of a sum is a double too, and is kept.
+/// Source: Knuth 1998, The Art of Computer Programming 2, section 4.2.2, theorem B (TwoSum)
+void Film::Sum::add(Vec3d v) noexcept {
+    const Vec3d s = high + v;
+    const Vec3d part = s - high;
+    low += (high - (s - part)) + (v - part);
+    high = s;
+}
+
 void Film::add(Pixel pixel, std::span<const Vec3f> radiance) noexcept {
     Vec3d sum;
     for (const Vec3f& r : radiance) sum += to_double(r);
-    sums_[index(pixel)] += sum;
+    sums_[index(pixel)].add(sum);
     counts_[index(pixel)] += radiance.size();
 }
 
@@ -37,14 +46,15 @@ void Film::merge(const Film& later) {
     if (rect_.x != later.rect_.x || rect_.y != later.rect_.y || rect_.width != later.rect_.width || rect_.height != later.rect_.height)
         throw Error("films of different rectangles cannot be merged");
     for (std::size_t i = 0; i < sums_.size(); ++i) {
-        sums_[i] += later.sums_[i];
+        sums_[i].add(later.sums_[i].high);
+        sums_[i].low += later.sums_[i].low;
         counts_[i] += later.counts_[i];
     }
 }
 
 Vec3d Film::mean(Pixel pixel) const noexcept {
     const std::size_t i = index(pixel);
-    return counts_[i] == 0 ? Vec3d{} : sums_[i] / static_cast<double>(counts_[i]);
+    return counts_[i] == 0 ? Vec3d{} : sums_[i].value() / static_cast<double>(counts_[i]);
 }
 
 std::vector<float> Film::image() const {

@@ -11,6 +11,9 @@ namespace koksma::detail {
 
 namespace {
 
+/// Embree multiplies three coordinates: beyond this they overflow and hits are lost in silence (measured from 7e12 on).
+constexpr float kLargestCoordinate = 2e12f;
+
 /// Corners in circular order, so that the unit square maps onto the two triangles without a seam (light sampling).
 MeshData rectangle_mesh() {
     return {{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}, {}, {{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {{0, 1, 2}, {0, 2, 3}}};
@@ -89,8 +92,11 @@ private:
         g.has_uvs = !mesh.uvs.empty();
         g.has_normals = !mesh.normals.empty() && !shape_.face_normals;
         const auto base = static_cast<std::uint32_t>(scene_.positions.size());
-        for (const glm::vec3& p : mesh.positions)
+        for (const glm::vec3& p : mesh.positions) {
             scene_.positions.push_back(Vec3f(glm::vec3(glm::dvec3(m * glm::dvec4(glm::dvec3(p), 1.0)) - origin_)));
+            if (!(max_component(abs(scene_.positions.back())) <= kLargestCoordinate))
+                throw Error(shape_.where.text() + ": a vertex is farther from the camera than 2e12, or not finite; scale the scene down");
+        }
         for (const auto& t : mesh.triangles) scene_.triangles.push_back({base + t[0], base + t[1], base + t[2]});
         if (g.has_uvs) {
             scene_.uvs.resize(base);

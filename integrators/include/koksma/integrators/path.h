@@ -33,6 +33,9 @@ struct NoObserver {
     return o2 < kLimit2 && d2 < kLimit2 && d2 > 0.0f;
 }
 
+/// After so many bounces in a row without any loss a path is played for.
+inline constexpr std::int32_t kLosslessBounces = 256;
+
 /// The radiance along one camera sample: emission, next-event estimation and BSDF sampling combined by the power heuristic,
 /// Russian roulette without a cap.
 /// @param draws     with the path selected
@@ -52,6 +55,7 @@ template <EffectSet kEffects, class Observer>
     float pdf_bsdf = 0.0f;         // of the last direction, per steradian
     bool last_was_delta = true;    // light sampling could not have made the last direction
     Vec3f last_p{0.0f};
+    [[maybe_unused]] std::int32_t lossless = 0;  // bounces in a row after which nothing was lost
 
     glm::vec2 u_lens{0.0f};
     if constexpr (kEffects.has(Effect::lens)) u_lens = draws.lens();
@@ -125,7 +129,7 @@ template <EffectSet kEffects, class Observer>
                     const float pdf_light = light.pdf_w * probability;
                     const float weight = light.delta ? 1.0f : power_heuristic(pdf_light, value.pdf_w);
                     const Vec3f contribution = beta * value.f_cos * light.radiance * (weight / pdf_light);
-                    if (max_component(contribution) > 0.0f) {
+                    if (!(sum(contribution) <= 0.0f)) {  // a NaN goes on, to be counted
                         Ray shadow;
                         shadow.o = offset_origin(surface.p, surface.p_error, surface.ng, light.wi);
                         shadow.d = light.at_infinity ? light.wi : light.target - shadow.o;
@@ -148,9 +152,12 @@ template <EffectSet kEffects, class Observer>
         if constexpr (kSmooth)
             if (has_smooth_lobe(local.bsdf)) u_direction = draws.direction(bounce);
         const BsdfSample next = sample_bsdf<kEffects>(local.bsdf, wo_local, u_lobe, u_direction);
-        if (!(next.pdf_w > 0.0f)) break;
+        if (next.pdf_w <= 0.0f) break;
         beta *= next.weight;
-        if (!(max_component(beta) > 0.0f)) break;
+        if (!(sum(beta) > 0.0f) || !(next.pdf_w > 0.0f)) {
+            if (sum(beta) <= 0.0f) break;
+            return kInvalid;  // not a number: to be counted, not to end in silence
+        }
         if constexpr (kEffects.has(Effect::dielectric)) eta_scale *= next.eta * next.eta;
         const Vec3f wi = local.frame.to_world(next.wi);
         observer.bounce(next, wi, beta);
@@ -162,10 +169,13 @@ template <EffectSet kEffects, class Observer>
         last_p = surface.p;
         ray = Ray{offset_origin(surface.p, surface.p_error, surface.ng, wi), wi};
 
-        // ---- Russian roulette: survival is never capped below one (a cap q gives infinite variance once albedo^2 >= q)
+        // ---- Russian roulette: survival is never capped below one (a cap q gives infinite variance once albedo^2 >= q), except
+        //      for a path that has lost nothing for long: trapped in glass by total reflection, it would go on for ever
         if constexpr (kEffects.has(Effect::roulette)) {
             if (depth + 1 >= settings.rr_depth) {
-                const float survival = max_component(beta) * eta_scale;
+                float survival = max_component(beta) * eta_scale;
+                lossless = survival < 1.0f ? 0 : lossless + 1;
+                if (lossless > kLosslessBounces) survival = 0.9f;
                 if (survival < 1.0f) {
                     const float u = draws.roulette(bounce);
                     observer.roulette(u, survival, u < survival);

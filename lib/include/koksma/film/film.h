@@ -1,5 +1,5 @@
 #pragma once
-// Where samples are summed: in double, in fixed chunks, so that any split of the work at chunk boundaries gives the same bytes.
+// Where samples are summed: in double, in fixed chunks, so that a split of the work at chunk boundaries gives the same bytes.
 
 #include <koksma/math/vec3.h>
 #include <koksma/sampling/bits.h>
@@ -40,7 +40,8 @@ public:
 
     /// Adds the samples of one chunk (or part of one), in order.
     void add(Pixel pixel, std::span<const Vec3f> radiance) noexcept;
-    /// Adds a film of the same rectangle that holds later chunks. @throws Error if the rectangles differ
+    /// Adds a film of the same rectangle that holds later chunks. Sums of chunks carry 106 bits, so how the chunks were
+    /// split between the films does not show in the means' 24. @throws Error if the rectangles differ
     void merge(const Film& later);
 
     /// Mean radiance of a pixel, (0, 0, 0) before the first sample.
@@ -56,7 +57,13 @@ private:
         return static_cast<std::size_t>(p.y - rect_.y) * static_cast<std::size_t>(rect_.width) + static_cast<std::size_t>(p.x - rect_.x);
     }
     PixelRect rect_;
-    std::vector<Vec3d> sums_;
+    /// A sum and what rounding has taken from it.
+    struct Sum {
+        Vec3d high, low;
+        void add(Vec3d v) noexcept;
+        [[nodiscard]] Vec3d value() const noexcept { return high + low; }
+    };
+    std::vector<Sum> sums_;
     std::vector<std::uint64_t> counts_;
 };
 

@@ -58,6 +58,10 @@ template <class Real>
     const Real m = v.x > v.y ? v.x : v.y;
     return m > v.z ? m : v.z;
 }
+template <class Real>
+[[nodiscard]] constexpr Real sum(Vec3<Real> v) {
+    return v.x + v.y + v.z;
+}
 [[nodiscard]] constexpr Vec3d to_double(Vec3f v) { return {v.x, v.y, v.z}; }
 [[nodiscard]] constexpr Vec3f to_float(Vec3d v) {
     return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};

@@ -36,9 +36,10 @@ double focal_length_fov(Properties& p, const FilmSettings& film) {
 }
 
 double read_fov(Properties& p, const FilmSettings& film) {
+    // Asked for even where it is not given: what was asked for is what an error lists as supported.
+    const double fov = p.number("fov", 0.0);
     if (!p.has("fov")) return focal_length_fov(p, film);
     if (p.has("focal_length")) fail(p.where("focal_length"), "give 'fov' or 'focal_length', not both");
-    const double fov = p.number("fov", 0.0);
     const std::string axis = p.choice("fov_axis", "x", {"x", "y", "diagonal", "smaller", "larger"});
     if (!(fov > 0.0 && fov < 180.0)) fail(p.where("fov"), "'fov' is {} degrees; it must be in (0, 180)", fov);
     return horizontal_fov(fov, axis, film);
