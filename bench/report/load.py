@@ -60,7 +60,7 @@ def _scene(node: Node, directory: Path) -> model.Scene:
         name=node.at("name").name(), purpose=node.at("purpose").text(), expect=node.at("expect").text(),
         film=_integers(node.at("film"), (1, 1), "[width, height]"),
         crop=_integers(node.at("crop"), (0, 0, 1, 1), "[x, y, width, height]"),
-        max_depth=node.at("max_depth").integer(), rr_depth=node.at("rr_depth").integer(),
+        max_depth=node.at("max_depth").integer(least=-1), rr_depth=node.at("rr_depth").integer(),
         effects=tuple(effect.name() for effect in node.at("effects").items()),
         dimensions=node.at("dimensions").integer(), kernel=node.at("kernel").text(),
         reference=_reference(node.at("reference")),

@@ -1,4 +1,5 @@
 #include <koksma/integrators/render.h>
+#include <koksma/integrators/thread_clock.h>
 #include <koksma/sampling/error.h>
 
 #include "float_mode.h"
@@ -10,7 +11,6 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <ctime>
 #include <mutex>
 
 namespace koksma {
@@ -19,12 +19,6 @@ namespace {
 
 constexpr std::int32_t kTile = 8;           // pixels per side of a task
 constexpr std::uint64_t kTimedEvery = 16;   // blocks: the fills of one in so many are done again and timed
-
-double thread_seconds() noexcept {
-    timespec t{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
 
 bool earlier(const InvalidSample& a, const InvalidSample& b) noexcept {
     if (a.id.pixel.y != b.id.pixel.y) return a.id.pixel.y < b.id.pixel.y;

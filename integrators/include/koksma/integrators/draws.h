@@ -1,10 +1,10 @@
 #pragma once
 // The random numbers of a block of paths, fetched from the sampler by batch and read by role.
 
+#include <koksma/integrators/thread_clock.h>
 #include <koksma/plan/plan.h>
 #include <koksma/sampling/sample_source.h>
 
-#include <chrono>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -69,9 +69,9 @@ public:
     [[nodiscard]] double seconds_of_fills() {
         std::vector<float>& scratch = scratch_;
         scratch.resize(camera_.size() + block_[0].size() + block_[1].size() + single_.size());
-        const auto start = std::chrono::steady_clock::now();
+        const double start = thread_seconds();
         for (const Fill& f : fills_) source_.fill(f.samples, f.run, scratch.data(), f.stride);
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        return thread_seconds() - start;
     }
 
     std::uint64_t tail_numbers = 0;  ///< numbers drawn from the tail beyond the layout
