@@ -3,18 +3,18 @@ include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/koksma)
 set(data_dir ${CMAKE_INSTALL_DATADIR}/koksma)
 
-set(libraries sampling core integrators bench conformance)
+set(libraries sampling core integrators bench conformance rates)
 list(TRANSFORM libraries PREPEND koksma_ OUTPUT_VARIABLE targets)
 foreach(library IN LISTS libraries)
   set_target_properties(koksma_${library} PROPERTIES EXPORT_NAME ${library})
 endforeach()
 list(TRANSFORM KOKSMA_OWN_SAMPLERS PREPEND koksma_sampler_ OUTPUT_VARIABLE sampler_targets)
-install(TARGETS ${targets} ${sampler_targets} koksma_stb EXPORT koksmaTargets
+install(TARGETS ${targets} ${sampler_targets} koksma_sampler_files koksma_stb EXPORT koksmaTargets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(TARGETS koksma RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(EXPORT koksmaTargets NAMESPACE koksma:: DESTINATION ${package_dir})
 
-install(DIRECTORY lib/include/koksma integrators/include/koksma bench/include/koksma tests/conformance/include/koksma
+install(DIRECTORY lib/include/koksma integrators/include/koksma bench/include/koksma checks/include/koksma
         DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(DIRECTORY samplers/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/koksma/samplers FILES_MATCHING PATTERN "*.h" PATTERN data EXCLUDE)
 

@@ -1,11 +1,11 @@
 # Samplers as plug-ins, in this tree and out of it: no central list, no static initialisers.
 
-# koksma_add_sampler(<name> TYPE <C++ type> HEADER <header> [SOURCES <file>...])
-#   Declares a sampler. It sees koksma/sampling and nothing else of Koksma.
+# koksma_add_sampler(<name> TYPE <C++ type> HEADER <header> [SOURCES <file>...] [LINK <target>...])
+#   Declares a sampler. It sees koksma/sampling, and what it links, and nothing else of Koksma.
 function(koksma_add_sampler name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "TYPE;HEADER" "SOURCES")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "TYPE;HEADER" "SOURCES;LINK")
   if(NOT arg_TYPE OR NOT arg_HEADER OR arg_UNPARSED_ARGUMENTS)
-    message(FATAL_ERROR "koksma_add_sampler(<name> TYPE <C++ type> HEADER <header> [SOURCES <file>...]); got: ${ARGV}")
+    message(FATAL_ERROR "koksma_add_sampler(<name> TYPE <C++ type> HEADER <header> [SOURCES <file>...] [LINK <target>...]); got: ${ARGV}")
   endif()
   get_filename_component(header "${arg_HEADER}" ABSOLUTE)
   if(NOT EXISTS "${header}")
@@ -15,10 +15,10 @@ function(koksma_add_sampler name)
   if(arg_SOURCES)
     add_library(${target} STATIC ${arg_SOURCES})
     koksma_target(${target})
-    target_link_libraries(${target} PUBLIC koksma::sampling)
+    target_link_libraries(${target} PUBLIC koksma::sampling ${arg_LINK})
   else()
     add_library(${target} INTERFACE)
-    target_link_libraries(${target} INTERFACE koksma::sampling)
+    target_link_libraries(${target} INTERFACE koksma::sampling ${arg_LINK})
   endif()
   set_property(TARGET ${target} PROPERTY KOKSMA_SAMPLER_TYPE "${arg_TYPE}")
   set_property(TARGET ${target} PROPERTY KOKSMA_SAMPLER_HEADER "${header}")

@@ -13,7 +13,7 @@ int failures() {
     koksma::register_samplers(registry);
     int failed = 0;
     for (const Subject& subject : subjects(registry))
-        for (const std::span<const Check> checks : {exact_checks(), stream_checks(), seed_checks(), estimate_checks()})
+        for (const std::span<const Check> checks : {exact_checks(), net_checks(), stream_checks(), seed_checks(), estimate_checks()})
             for (const Check& check : checks) {
                 const Finding finding = check.run(subject);
                 if (!finding.applies) continue;

@@ -1,4 +1,5 @@
 #include "commands.h"
+#include "sampler_json.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -17,6 +18,8 @@ std::string limit(T value) {
     return value == std::numeric_limits<T>::max() ? "no limit" : std::to_string(value);
 }
 
+}  // namespace
+
 nlohmann::ordered_json json_of(const SamplerInfo& info) {
     nlohmann::ordered_json options = nlohmann::ordered_json::array();
     for (const OptionInfo& o : info.options) options.push_back({{"name", o.name}, {"default", o.default_value}, {"values", o.values}, {"help", o.help}});
@@ -27,8 +30,6 @@ nlohmann::ordered_json json_of(const SamplerInfo& info) {
     j["max_samples"] = info.max_samples == std::numeric_limits<std::uint64_t>::max() ? nlohmann::ordered_json() : nlohmann::ordered_json(info.max_samples);
     return j;
 }
-
-}  // namespace
 
 int run_samplers(bool json, const Registry& registry) {
     if (json) {

@@ -67,6 +67,31 @@ struct ReferenceCommand {
     bool force = false;
 };
 
+struct CheckCommand {
+    std::string sampler = "all";                 ///< a name, a name with options, or all
+    std::uint64_t seed = 0;                      ///< 0: the seeds of the tests; others are fresh trials
+    bool json = false;
+};
+struct PointsCommand {
+    std::string sampler;
+    std::uint64_t n = 64, seed = 0;
+    std::uint32_t dims = 2;
+    std::vector<int> pixel;                      ///< x, y; empty: 0, 0
+    std::filesystem::path csv, npy;              ///< neither: a table on standard output
+};
+struct RatesCommand {
+    std::vector<std::string> samplers;           ///< empty: all, at their default options
+    std::vector<std::string> integrands;         ///< names; empty: all
+    std::uint64_t most = 4096;                   ///< samples
+    int replicates = 256;
+    bool json = false;
+};
+struct CardCommand {
+    std::string sampler;
+    std::filesystem::path output;
+    bool json = false;                           ///< the numbers, not the page
+};
+
 int run_render(const RenderCommand& command, const Registry& registry);
 int run_replay(const ReplayCommand& command, const Registry& registry);
 int run_plan(const PlanCommand& command, const Registry& registry);
@@ -74,6 +99,10 @@ int run_compare(const CompareCommand& command);
 int run_samplers(bool json, const Registry& registry);
 int run_bench(const BenchCommand& command, const Registry& registry, const std::string& command_line);
 int run_reference(const ReferenceCommand& command, const Registry& registry);
+int run_check(const CheckCommand& command, const Registry& registry);
+int run_points(const PointsCommand& command, const Registry& registry);
+int run_rates(const RatesCommand& command, const Registry& registry);
+int run_card(const CardCommand& command, const Registry& registry);
 int run_report(const std::filesystem::path& directory);
 
 }  // namespace koksma

@@ -102,6 +102,40 @@ int run_program(int argc, char** argv) {
     c->add_flag("--json", samplers_json, "Print JSON");
     c->final_callback([&] { action = [&] { return run_samplers(samplers_json, registry); }; });
 
+    CheckCommand check;
+    c = app.add_subcommand("check", "Check a sampler: range, purity, strata, nets, keys, independence, bias (exit code 1 if one fails)");
+    c->add_option("sampler", check.sampler, "Sampler, with options or without (then in all combinations), or all (default)");
+    c->add_option("--seed", check.seed, "A fresh trial; 0: the seeds of the tests (default)")->check(not_a_count);
+    c->add_flag("--json", check.json, "Print JSON");
+    c->final_callback([&] { action = [&] { return run_check(check, registry); }; });
+
+    PointsCommand points;
+    c = app.add_subcommand("points", "Write the points of a sampler");
+    c->add_option("sampler", points.sampler, "Sampler with options, as in sobol:randomize=none")->required();
+    c->add_option("-n,--n", points.n, "Number of points, also the samples per pixel of the plan (default 64)")->check(not_a_count);
+    c->add_option("-d,--dims", points.dims, "Number of dimensions, drawn in pairs (default 2)")->check(CLI::Range(1u, 1u << 20));
+    c->add_option("--seed", points.seed, "Seed (default 0)")->check(not_a_count);
+    c->add_option("--pixel", points.pixel, "X,Y (default 0,0)")->delimiter(',')->expected(2);
+    CLI::Option* csv = c->add_option("--csv", points.csv, "Write a text file, a point a line, numbers separated by commas");
+    c->add_option("--npy", points.npy, "Write a NumPy file of float32, shape (points, dimensions)")->excludes(csv);
+    c->final_callback([&] { action = [&] { return run_points(points, registry); }; });
+
+    RatesCommand rates;
+    c = app.add_subcommand("rates", "Measure how the error of samplers falls on integrands with known integrals");
+    c->add_option("-s,--samplers", rates.samplers, "Samplers (default: all, at their default options)");
+    c->add_option("-i,--integrands", rates.integrands, "Integrands by name (default: all)");
+    c->add_option("-n,--most", rates.most, "Largest number of samples (default 4096)")->check(not_a_count);
+    c->add_option("-r,--replicates", rates.replicates, "Independent replicates (default 256)")->check(CLI::Range(2, 1 << 20));
+    c->add_flag("--json", rates.json, "Print JSON, with the error at every count");
+    c->final_callback([&] { action = [&] { return run_rates(rates, registry); }; });
+
+    CardCommand card;
+    c = app.add_subcommand("card", "One page about a sampler: pictures, spectrum, discrepancies, quality, rates");
+    c->add_option("sampler", card.sampler, "Sampler with options")->required();
+    c->add_option("-o,--output", card.output, "HTML file to write (default: NAME.html)");
+    c->add_flag("--json", card.json, "Print the numbers as JSON instead");
+    c->final_callback([&] { action = [&] { return run_card(card, registry); }; });
+
     ReferenceCommand reference;
     c = app.add_subcommand("reference", "Make the references of an experiment (they are cached; bench makes missing ones itself)");
     c->add_option("experiment", reference.experiment, "Name of an experiment or a JSON file (default: default)");
@@ -144,7 +178,8 @@ int run_program(int argc, char** argv) {
         fmt::print(stderr, "koksma: out of memory; render a part of the film with --crop, or a smaller film\n");
         return 1;
     } catch (const std::exception& e) {
-        fmt::print(stderr, "koksma: {}\n", e.what());
+        const bool full = std::ferror(stdout) != 0;  // fmt throws when a buffer does not fit on the disk
+        fmt::print(stderr, "koksma: {}\n", full ? "cannot write to standard output; what was printed is incomplete" : e.what());
         return 1;
     }
 }

@@ -1,7 +1,7 @@
 #pragma once
 // The bands that measured rates must lie in: bands.tsv, and how wide they are.
 
-#include "rates.h"
+#include <koksma/rates/rates.h>
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 // phi of it. (x - 1/2)(y - 1/2) under Owen scrambling: Haar variance of x - 1/2 at level k is 4^-k / 16; the gain of a
 // (0,m,2)-net is 0 for k1 + k2 <= m - 2, 2 for m - 1 and 1 from m on (Owen 1997, "Monte Carlo variance of scrambled net quadrature").
 
-#include "rates.h"
+#include <koksma/rates/rates.h>
 
 #include <koksma_catch.h>
 

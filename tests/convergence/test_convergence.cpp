@@ -27,10 +27,10 @@ std::unique_ptr<SamplerFactory> make(std::string_view spec) {
     return registry.make(spec);
 }
 
-constexpr std::array kOneD{kExp1, kStep};
+constexpr auto& kOneD = kOneDimensional;
 constexpr std::array kTwoD{kLin2, kAddExp2, kBicen2, kBilin2, kGauss2, kQdisk2, kTri2, kBox2};
 /// All that read at least two dimensions: dimensions 0 and 1 are the same whatever follows them.
-constexpr std::array kUpToSixD{kLin2, kAddExp2, kBicen2, kBilin2, kGauss2, kQdisk2, kTri2, kBox2, kProdlin4, kAddExp6, kProdlin6};
+constexpr auto& kUpToSixD = kMultiDimensional;
 
 /// Compares the rates of a sampler with the rows of the table named `rows`.
 /// @param last   log2 of the largest N, 12 or 14
@@ -95,6 +95,25 @@ TEST_CASE("Sobol' scrambled by a tree converges at the rates of the hash", "[con
 TEST_CASE("stratified converges at the rates of jitter at square counts", "[convergence]") {
     check_bands("stratified", "jitter", kOneD, 14, 2);
     check_bands("stratified", "jitter", kTwoD, 14, 2);
+}
+
+TEST_CASE("Latin hypercubes converge at their rates", "[convergence]") {
+    check_bands("lhs", "lhs", kOneD, 12);
+    check_bands("lhs", "lhs", kUpToSixD, 12);
+}
+
+TEST_CASE("multi-jitter converges at its rates at square counts", "[convergence]") {
+    check_bands("multijitter:order=independent", "mj2", kTwoD, 14, 2);
+}
+
+TEST_CASE("padded Sobol' converges as the joint sequence in pairs and as random numbers beyond", "[convergence]") {
+    check_bands("sobol-padded", "sobol_pad2", kOneD, 12);
+    check_bands("sobol-padded", "sobol_pad2", kUpToSixD, 12);
+}
+
+/// In pairs only: the slope of a single multiple of an irrational depends on where its sequence starts.
+TEST_CASE("pairs of the Kronecker sequence converge at their rates", "[convergence]") {
+    check_bands("kronecker", "kron", kTwoD, 12);
 }
 
 TEST_CASE("Owen-scrambled Sobol' falls to N^-1 one sample short of a power of two", "[convergence]") {

@@ -63,7 +63,7 @@ macro(permit files_regex names_regex why)
   endforeach()
 endmacro()
 
-sources(all_sources lib samplers integrators bench tests)
+sources(all_sources lib samplers checks integrators bench tests)
 if(NOT all_sources)
   message(FATAL_ERROR "there are no sources in '${SOURCE}'; give -DSOURCE=<tree>")
 endif()
@@ -74,14 +74,15 @@ permit("^samplers/" "${standard}|^glm/|^koksma/(sampling|simd|math)/" "a sampler
 permit("^lib/include/koksma/sampling/" "${standard}|^glm/|^koksma/(sampling|simd|math)/" "koksma::sampling is headers over GLM and the standard library")
 permit("^lib/include/koksma/math/" "${standard}|^glm/|^koksma/(math|simd)/" "koksma/math stands on koksma/simd")
 permit("^lib/include/koksma/simd/" "${standard}|^koksma/simd/|^(hwy|xsimd|Vc|eve)/|intrin\\.h$|^arm_neon\\.h$" "koksma/simd stands on the SIMD library alone")
-forbid("^lib/" "^koksma/(integrators|bench|conformance)/|(^|/)(samplers|integrators|bench)/" "lib knows no sampler, no integrator and no program")
-forbid("^integrators/" "^koksma/(bench|conformance)/|(^|/)(samplers|bench|tests)/" "integrators know lib only, and samplers through the registry")
+forbid("^lib/" "^koksma/(integrators|bench|conformance|rates)/|(^|/)(samplers|integrators|bench|checks)/" "lib knows no sampler, no integrator and no program")
+permit("^checks/" "${standard}|^glm/|^koksma/(sampling|conformance|rates)/" "the checks see samplers through koksma/sampling alone")
+forbid("^integrators/" "^koksma/(bench|conformance|rates)/|(^|/)(samplers|bench|checks|tests)/" "integrators know lib only, and samplers through the registry")
 forbid("^bench/" "(^|/)(samplers|tests)/" "the program reaches samplers by name, through the registry")
 
 file(GLOB sampler_headers RELATIVE ${SOURCE}/samplers ${SOURCE}/samplers/*.h)
 foreach(header IN LISTS sampler_headers)
   string(REPLACE "." "\\." header "${header}")
-  forbid("^(lib|integrators|bench)/" "(^|/)${header}$" "this is the header of a sampler")
+  forbid("^(lib|checks|integrators|bench)/" "(^|/)${header}$" "this is the header of a sampler")
 endforeach()
 
 # One file a library.
@@ -118,7 +119,7 @@ endif()
 
 # Flags and pragmas that change what arithmetic means, or tie a build to one machine. Comments may speak of them.
 set(flags "-ffast-math|-Ofast|-funsafe-math-optimizations|-fassociative-math|-freciprocal-math|-ffinite-math-only|-ffp-contract=(fast|on)|-march=native|-mcpu=native|optimize *\\(? *\"-?f?fast-math|STDC FP_CONTRACT ON|float_control")
-file(GLOB_RECURSE builds RELATIVE ${SOURCE} ${SOURCE}/lib/CMakeLists.txt ${SOURCE}/samplers/CMakeLists.txt ${SOURCE}/integrators/CMakeLists.txt
+file(GLOB_RECURSE builds RELATIVE ${SOURCE} ${SOURCE}/lib/CMakeLists.txt ${SOURCE}/samplers/CMakeLists.txt ${SOURCE}/checks/CMakeLists.txt ${SOURCE}/integrators/CMakeLists.txt
      ${SOURCE}/bench/CMakeLists.txt ${SOURCE}/tests/CMakeLists.txt ${SOURCE}/cmake/*.cmake ${SOURCE}/.ci/*)
 list(FILTER builds EXCLUDE REGEX "^tests/house/")
 foreach(file IN ITEMS CMakeLists.txt CMakePresets.json koksma)

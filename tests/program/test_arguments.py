@@ -4,7 +4,7 @@ import unittest
 
 from harness import ProgramTest
 
-COMMANDS = ["render", "bench", "compare", "plan", "samplers", "reference", "report", "replay"]
+COMMANDS = ["render", "bench", "compare", "plan", "samplers", "check", "points", "rates", "card", "reference", "report", "replay"]
 SCENE = ["render", "scene.xml", "-q", "-o", "out.exr"]
 
 

@@ -6,6 +6,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace koksma {
@@ -33,13 +34,13 @@ public:
             given = comma == std::string_view::npos ? std::string_view{} : given.substr(comma + 1);
             set(sampler, item, known);
         }
-        canonical_ = sampler;
-        char separator = ':';
-        for (const OptionInfo& o : known) {
-            if (!o.always_shown && values_[o.name] == o.default_value) continue;
-            canonical_ += separator + o.name + "=" + values_[o.name];
-            separator = ',';
-        }
+        make_canonical(sampler, known);
+    }
+    /// Sets a declared option to what set-up found (the checksum of a file), so that the canonical name says it.
+    void resolve(std::string_view sampler, const std::string& key, std::string value, const std::vector<OptionInfo>& known) {
+        if (!values_.contains(key)) throw Error("sampler option '" + key + "' is set but not declared in info().options");
+        values_[key] = std::move(value);
+        make_canonical(sampler, known);
     }
     /// The value of a declared option.
     [[nodiscard]] const std::string& operator[](const std::string& key) const {
@@ -52,6 +53,15 @@ public:
     [[nodiscard]] const std::string& canonical() const noexcept { return canonical_; }
 
 private:
+    void make_canonical(std::string_view sampler, const std::vector<OptionInfo>& known) {
+        canonical_ = sampler;
+        char separator = ':';
+        for (const OptionInfo& o : known) {
+            if (!o.always_shown && values_[o.name] == o.default_value) continue;
+            canonical_ += separator + o.name + "=" + values_[o.name];
+            separator = ',';
+        }
+    }
     void set(std::string_view sampler, std::string_view item, const std::vector<OptionInfo>& known) {
         const auto equals = item.find('=');
         const std::string key(item.substr(0, equals));

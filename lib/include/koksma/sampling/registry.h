@@ -33,7 +33,12 @@ template <Sampler T>
 class TypedFactory final : public SamplerFactory {
 public:
     explicit TypedFactory(std::string_view given) : info_(T::info()), options_(info_.name, given, info_.options) {
-        if constexpr (HasTables<T>) tables_ = std::make_shared<const typename T::Tables>(options_);
+        if constexpr (HasTables<T>) {
+            tables_ = std::make_shared<const typename T::Tables>(options_);
+            if constexpr (HasDescription<typename T::Tables>) tables_->describe(info_);
+            if constexpr (HasChecksum<typename T::Tables>)
+                if (!tables_->checksum().empty()) options_.resolve(info_.name, "checksum", tables_->checksum(), info_.options);
+        }
     }
     const SamplerInfo& info() const noexcept override { return info_; }
     const SamplerOptions& options() const noexcept override { return options_; }

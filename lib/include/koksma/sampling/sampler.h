@@ -83,6 +83,18 @@ concept SamplePoint = requires(const P& p, const Slot& slot) {
 template <class T>
 concept HasTables = requires { typename T::Tables; } && std::constructible_from<typename T::Tables, const SamplerOptions&>;
 
+/// Tables that come from a file may say what the file changes of the sampler's description (limits, counts, scope, remark; not the
+/// name or the options): `describe(info)`, once, when they are made. A max_dimensions set there is where the constructor refuses:
+/// the tail begins at that of T::info() only.
+template <class Tables>
+concept HasDescription = requires(const Tables& t, SamplerInfo& info) { t.describe(info); };
+
+/// They may also name their content: `checksum()`, empty without a file, becomes the value of the declared option `checksum`.
+template <class Tables>
+concept HasChecksum = requires(const Tables& t) {
+    { t.checksum() } -> std::convertible_to<std::string>;
+};
+
 /// What the author of a sampler writes. `T(options, plan)`, or `T(options, plan, tables)` for one with tables, is cheap and
 /// may throw Error (a limit is passed); `point` is called for every sample and may not throw, allocate, or keep state.
 template <class T>
