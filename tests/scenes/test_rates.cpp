@@ -38,10 +38,10 @@ TEST_CASE("on a smooth scene random falls with the root of the samples and the o
         double from, to;
     };
     // A point's log RMSE has a standard deviation of sqrt(1 / (2 * 7 * 256)) = 0.017 or less, the slope over five points 0.004.
-    // Random: theory, -1/2, with five times that. The others: measured here -0.85, -1.00, -1.00 and -1.11, with a margin of 0.1 to
+    // Random: theory, -1/2, with five times that. The others: measured here -0.91, -1.00, -1.01 and -1.39, with a margin of 0.1 to
     // either side, as they bend and the scene's own geometry decides.
-    for (const Band& band : {Band{"random", -0.52, -0.48}, Band{"stratified", -0.95, -0.75}, Band{"halton", -1.1, -0.9},
-                             Band{"sobol:randomize=xor", -1.1, -0.9}, Band{kSobol, -1.21, -1.01}}) {
+    for (const Band& band : {Band{"random", -0.52, -0.48}, Band{"stratified", -1.01, -0.81}, Band{"halton", -1.1, -0.9},
+                             Band{"sobol:randomize=xor", -1.1, -0.9}, Band{kSobol, -1.49, -1.29}}) {
         const double s = slope(ready, band.sampler);
         INFO(band.sampler << " slope " << s);
         CHECK(s >= band.from);
