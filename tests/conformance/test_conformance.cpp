@@ -52,7 +52,7 @@ TEST_CASE("no stream equals another one under a shift", "[conformance]") { run("
 TEST_CASE("no two seeds, pixels or dimensions share a key", "[conformance]") { run("keys"); }
 TEST_CASE("one sample is uniform over seeds", "[conformance]") { run("uniform"); }
 TEST_CASE("two dimensions of one sample are independent over seeds", "[conformance]") { run("pairs"); }
-TEST_CASE("differences of two samples are independent between slots", "[conformance]") { run("differences"); }
+TEST_CASE("differences of two samples are independent between sets of dimensions", "[conformance]") { run("differences"); }
 TEST_CASE("neighbouring pixels are independent", "[conformance]") { run("pixels"); }
 TEST_CASE("consecutive seeds are independent", "[conformance]") { run("seeds"); }
 TEST_CASE("errors of pixels and seeds do not correlate", "[conformance]") { run("errors"); }

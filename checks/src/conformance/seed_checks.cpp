@@ -168,12 +168,12 @@ Finding nesting(const Subject& s) {
     return passed(text("worst z = ", worst));
 }
 
-/// The exclusive or of two samples of one pixel, in two dimensions of different slots: independent, whatever its distribution in
-/// each of them. Sees a scramble that two slots share behind different orders, where no value and no variance shows it.
+/// The exclusive or of two samples of one pixel, in two dimensions of different sets: independent, whatever its distribution in
+/// each of them. (Within a set it need not be: one order may serve both. A set is a slot of two, or as many as are drawn jointly.) Sees a scramble that two slots share behind different orders, where no value and no variance shows it.
 Finding differences(const Subject& s) {
     if (!s.randomized) return not_applicable("not randomized");
     if (s.promises.joint_across_slots) return not_applicable("slots are not independent of each other");
-    constexpr std::array<std::size_t, OverSeeds::kDimensions> kSlot{0, 0, 1, 1, 2, 3, 4, 5};
+    const std::size_t set = std::max<std::size_t>(2, s.info().joint);
     const std::uint64_t spp = good_count(s, 64);
     const std::vector<SampleId> ids = some_samples(spp);
     const OverSeeds u(s, spp, ids);
@@ -182,7 +182,7 @@ Finding differences(const Subject& s) {
         for (std::size_t j = i + 1; j < std::min<std::size_t>(ids.size(), 4); ++j)
             for (std::size_t a = 0; a < OverSeeds::kDimensions; ++a)
                 for (std::size_t b = a + 1; b < OverSeeds::kDimensions; ++b) {
-                    if (kSlot[a] == kSlot[b]) continue;
+                    if (a / set == b / set) continue;
                     Table table(8);
                     for (std::size_t r = 0; r < kSeeds; ++r)
                         table.add((bits24(u(r, i, a)) ^ bits24(u(r, j, a))) >> 21, (bits24(u(r, i, b)) ^ bits24(u(r, j, b))) >> 21);
@@ -197,7 +197,7 @@ Finding differences(const Subject& s) {
 constexpr Check kChecks[] = {
     {"uniform", "one sample is uniform over seeds, in its leading and in its middle bits", uniform},
     {"pairs", "two dimensions of one sample are independent over seeds", pairs},
-    {"differences", "differences of two samples are independent between slots", differences},
+    {"differences", "differences of two samples are independent between sets of dimensions", differences},
     {"pixels", "neighbouring pixels are independent", pixels},
     {"seeds", "consecutive seeds are independent", seeds},
     {"nesting", "digits below the first differing one are independent", nesting},

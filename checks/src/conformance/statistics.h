@@ -1,6 +1,7 @@
 #pragma once
 // The few statistics that the checks need, all as a number of standard deviations.
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <span>
@@ -40,21 +41,38 @@ class Table {
 public:
     explicit Table(std::size_t side) : side_(side), counts_(side * side, 0.0) {}
     void add(std::size_t row, std::size_t column) noexcept { counts_[row * side_ + column] += 1; }
-    /// See chi2_z; rows and columns that are empty do not count. A table of one row or column is independent.
+    /// See chi2_z. Rows and columns with less than 1/24 of all are counted with the fullest one, so that with 4096 pairs every cell
+    /// expects 7 or more, as the statistic wants. A table of one row or column is independent.
     [[nodiscard]] double z() const {
         std::vector<double> rows(side_, 0.0), columns(side_, 0.0);
-        double total = 0, chi2 = 0, filled_rows = 0, filled_columns = 0;
+        double total = 0;
         for (std::size_t k = 0; k < counts_.size(); ++k) rows[k / side_] += counts_[k], columns[k % side_] += counts_[k], total += counts_[k];
+        const std::vector<std::size_t> row_of = merged(rows, total / 24), column_of = merged(columns, total / 24);
+        std::vector<double> count(counts_.size(), 0.0);
+        for (std::size_t k = 0; k < counts_.size(); ++k) count[row_of[k / side_] * side_ + column_of[k % side_]] += counts_[k];
+        double chi2 = 0, filled_rows = 0, filled_columns = 0;
         for (std::size_t k = 0; k < side_; ++k) filled_rows += rows[k] > 0, filled_columns += columns[k] > 0;
         if (filled_rows < 2 || filled_columns < 2) return 0;
-        for (std::size_t k = 0; k < counts_.size(); ++k) {
+        for (std::size_t k = 0; k < count.size(); ++k) {
             const double expected = rows[k / side_] * columns[k % side_] / total;
-            if (expected > 0) chi2 += (counts_[k] - expected) * (counts_[k] - expected) / expected;
+            if (expected > 0) chi2 += (count[k] - expected) * (count[k] - expected) / expected;
         }
         return chi2_z(chi2, (filled_rows - 1) * (filled_columns - 1));
     }
 
 private:
+    /// Moves sums below `least` to the largest one. @return where each went
+    static std::vector<std::size_t> merged(std::vector<double>& sums, double least) {
+        const auto fullest = static_cast<std::size_t>(std::max_element(sums.begin(), sums.end()) - sums.begin());
+        std::vector<std::size_t> to(sums.size());
+        for (std::size_t k = 0; k < sums.size(); ++k) {
+            to[k] = k != fullest && sums[k] < least ? fullest : k;
+            if (to[k] == k) continue;
+            sums[fullest] += sums[k];
+            sums[k] = 0;
+        }
+        return to;
+    }
     std::size_t side_;
     std::vector<double> counts_;
 };
