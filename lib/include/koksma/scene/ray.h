@@ -32,7 +32,7 @@ struct Hit {
     return static_cast<float>(n) * kEps / (1.0f - static_cast<float>(n) * kEps);
 }
 
-/// The next float away from zero-sum rounding: up where `up`, else down.
+/// The next float above x where `up`, else the next below. @param x  finite
 [[nodiscard]] inline float next_float(float x, bool up) noexcept {
     if (x == 0.0f) return up ? std::numeric_limits<float>::denorm_min() : -std::numeric_limits<float>::denorm_min();
     const auto bits = std::bit_cast<std::int32_t>(x);

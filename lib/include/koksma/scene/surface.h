@@ -48,18 +48,17 @@ namespace detail {
     return f;
 }
 
-[[nodiscard]] inline glm::vec2 sphere_uv(Vec3d q, double radius) noexcept {
-    // q relative to the centre; azimuth and polar angle as fractions
+[[nodiscard]] inline glm::vec2 sphere_uv(Vec3d q) noexcept {
+    // q is a unit vector from the centre; azimuth and polar angle as fractions
     float phi = atan2_poly(static_cast<float>(q.y), static_cast<float>(q.x));
     if (phi < 0.0f) phi += 2.0f * kPi;
     const auto rho = static_cast<float>(std::sqrt(q.x * q.x + q.y * q.y));
-    (void)radius;
     return {phi * (0.5f * kInvPi), atan2_poly(rho, static_cast<float>(q.z)) * kInvPi};
 }
 
 }  // namespace detail
 
-/// A point of a triangle by its barycentrics. `wanted_frame`: compute UVs, shading normal and tangent too.
+/// A point of a triangle by the barycentrics of its second and third vertex, with UVs, shading normal and tangent.
 [[nodiscard]] inline Surface triangle_surface(const Scene& scene, std::uint32_t geometry, std::uint32_t triangle, glm::vec2 b) noexcept {
     const GeometryRecord& g = scene.geometries[geometry];
     const auto& index = scene.triangles[triangle];
@@ -113,7 +112,7 @@ namespace detail {
     s.p = to_float(sphere.center + unit * sphere.radius);
     s.p_error = abs(s.p) * error_gamma(2);  // computed in double: the rounding to float is what is left
     s.ng = to_float(g.flip ? -unit : unit);
-    s.uv = detail::sphere_uv(unit, 1.0);
+    s.uv = detail::sphere_uv(unit);
     const Vec3f dpdu{-static_cast<float>(unit.y), static_cast<float>(unit.x), 0.0f};
     s.shading = detail::frame_along(s.ng, dpdu);
     return s;
