@@ -3,7 +3,7 @@ include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/koksma)
 set(data_dir ${CMAKE_INSTALL_DATADIR}/koksma)
 
-set(libraries sampling core integrators bench conformance rates)
+set(libraries sampling simd core integrators bench conformance rates)
 list(TRANSFORM libraries PREPEND koksma_ OUTPUT_VARIABLE targets)
 foreach(library IN LISTS libraries)
   set_target_properties(koksma_${library} PROPERTIES EXPORT_NAME ${library})

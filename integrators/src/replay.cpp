@@ -25,7 +25,7 @@ public:
         const Shape& shape = scene_.description.shapes[hit.geometry];
         line("vertex {:<4} geometry {} ({}) primitive {}", vertex_++, hit.geometry, shape.where.text(), hit.primitive);
         line("            p {} +- {}", text(s.p), text(s.p_error));
-        line("            ng {} n {} uv ({:.9g}, {:.9g}) cos(wo) {:.9g}", text(s.ng), text(s.shading.n), s.uv.x, s.uv.y, dot(wo, s.shading.n));
+        line("            ng {} n {} uv ({:.9g}, {:.9g}) cos(wo) {:.9g}", text(s.ng), text(s.n), s.uv.x, s.uv.y, dot(wo, s.n));
         line("            beta {}", text(beta));
     }
     void escaped(Vec3f d, Vec3f contribution, float weight) {

@@ -62,10 +62,16 @@ std::vector<EffectScene> effect_scenes() {
     RoughConductor metal;
     metal.distribution = RoughConductor::Distribution::ggx;
     metal.alpha_u = Rgb(0.3f);
-    metal.alpha_v = Rgb(0.1f);
+    metal.alpha_v = Rgb(0.3f);
     const std::uint32_t rough = add_material(d, metal);
     add_shape(d, CubeShape{}, translated({0, 0.5, 0}) * scaled(0.4), rough);
     add(Effect::glossy, d);
+
+    d = floor_scene();
+    metal.alpha_v = Rgb(0.1f);
+    const std::uint32_t brushed = add_material(d, metal);
+    add_shape(d, CubeShape{}, translated({0, 0.5, 0}) * scaled(0.4), brushed);
+    add(Effect::anisotropic, d);
 
     d = floor_scene();
     const std::uint32_t mirror = add_material(d, Conductor{});

@@ -64,7 +64,7 @@ TEST_CASE("F5: a normalised vector that is too long makes no NaN in a warp or a 
             b.facets = {alpha, alpha, ggx};
             for (int i = 0; i < 1000; ++i) {
                 const float u = static_cast<float>(i) / 1000.0f;
-                Vec3f wo = normalize(square_to_cosine_hemisphere({u, std::fmod(u * 37.0f, 1.0f)}));
+                Vec3f wo = normalize(square_to_cosine_hemisphere<float>({u, std::fmod(u * 37.0f, 1.0f)}));
                 if (i == 0) wo = {0, 0, 1.0000004f};
                 const BsdfSample s = sample_bsdf<EffectSet::all()>(b, wo, 0.0f, {std::fmod(u * 61.0f, 1.0f), u});
                 REQUIRE(is_finite(s.weight));

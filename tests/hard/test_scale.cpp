@@ -184,16 +184,16 @@ TEST_CASE("B8: triangles without area are never hit and harm nothing", "[hard]")
 
 TEST_CASE("B9: rays that Embree may not see are kept from it", "[hard]") {
     constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-    CHECK(is_traceable({{1, 2, 3}, {0, 0, 1}}));
-    CHECK(is_traceable({{1, 2, 3}, {0, 0, 1e10f}}));
-    CHECK_FALSE(is_traceable({{1, 2, 3}, {0, 0, 0}}));
-    CHECK_FALSE(is_traceable({{1, 2, 3}, {kNan, 0, 1}}));
-    CHECK_FALSE(is_traceable({{1, kNan, 3}, {0, 0, 1}}));
-    CHECK_FALSE(is_traceable({{kInfinity, 2, 3}, {0, 0, 1}}));
-    CHECK_FALSE(is_traceable({{1, 2, 3}, {0, -kInfinity, 1}}));
+    CHECK(is_traceable<float>({1, 2, 3}, {0, 0, 1}));
+    CHECK(is_traceable<float>({1, 2, 3}, {0, 0, 1e10f}));
+    CHECK_FALSE(is_traceable<float>({1, 2, 3}, {0, 0, 0}));
+    CHECK_FALSE(is_traceable<float>({1, 2, 3}, {kNan, 0, 1}));
+    CHECK_FALSE(is_traceable<float>({1, kNan, 3}, {0, 0, 1}));
+    CHECK_FALSE(is_traceable<float>({kInfinity, 2, 3}, {0, 0, 1}));
+    CHECK_FALSE(is_traceable<float>({1, 2, 3}, {0, -kInfinity, 1}));
     // Embree's own check of a ray: |x| < 1.844e18, in debug builds an assertion.
-    CHECK_FALSE(is_traceable({{1, 2, 3}, {0, 0, 2e18f}}));
-    CHECK_FALSE(is_traceable({{1, 2e18f, 3}, {0, 0, 1}}));
+    CHECK_FALSE(is_traceable<float>({1, 2, 3}, {0, 0, 2e18f}));
+    CHECK_FALSE(is_traceable<float>({1, 2e18f, 3}, {0, 0, 1}));
 }
 
 TEST_CASE("B10: denormal geometry is missed and denormal light is lost without an error", "[hard]") {

@@ -32,7 +32,7 @@ Bsdf rough(float u, float v, bool ggx) {
 Bsdf glass(float eta) {
     Bsdf b;
     b.kind = BsdfKind::dielectric;
-    b.reflectance = Vec3f(1.0f);
+    b.reflectance = b.transmittance = Vec3f(1.0f);
     b.eta = Vec3f(eta);
     return b;
 }
@@ -181,7 +181,7 @@ TEST_CASE("GGX has the single-scattering albedo of uncorrelated masking", "[scen
             double sum = 0;
             for (int i = 0; i < 512; ++i)
                 for (int j = 0; j < 512; ++j) {
-                    const glm::vec2 v{(static_cast<float>(i) + u()) / 512.0f, (static_cast<float>(j) + u()) / 512.0f};
+                    const Vec2f v{(static_cast<float>(i) + u()) / 512.0f, (static_cast<float>(j) + u()) / 512.0f};
                     sum += sample_bsdf<kAll>(rough(row.alpha, row.alpha, true), direction(degrees, 0), 0.0f,
                                              {std::min(v.x, kOneMinusUlp), std::min(v.y, kOneMinusUlp)})
                                .weight.y;

@@ -4,6 +4,7 @@
 #include "uniform.h"
 
 #include <koksma/sampling/warps.h>
+#include <koksma/scene/ray_offset.h>
 #include <koksma/scene/distribution.h>
 #include <koksma/scene/ray.h>
 
@@ -26,7 +27,7 @@ double turns(double y, double x) {
 }
 
 /// `to_square` undoes a warp up to its uniform coordinates: its values must be uniform on the square.
-double z_of(const std::function<glm::dvec2(glm::vec2)>& to_square) {
+double z_of(const std::function<glm::dvec2(Vec2f)>& to_square) {
     std::vector<double> counts(kBins * kBins), expected(counts.size(), double{kDraws} / (kBins * kBins));
     Uniform u(1);
     for (int i = 0; i < kDraws; ++i) {
@@ -40,25 +41,25 @@ double z_of(const std::function<glm::dvec2(glm::vec2)>& to_square) {
 }  // namespace
 
 TEST_CASE("warps keep areas", "[scenes]") {
-    CHECK(z_of([](glm::vec2 u) {
-              const glm::vec2 d = square_to_disk(u);
+    CHECK(z_of([](Vec2f u) {
+              const Vec2f d = square_to_disk(u);
               return glm::dvec2(d.x * d.x + d.y * d.y, turns(d.y, d.x));
           }) < 5.0);
-    CHECK(z_of([](glm::vec2 u) {
+    CHECK(z_of([](Vec2f u) {
               const Vec3f w = square_to_cosine_hemisphere(u);
               return glm::dvec2(w.z * w.z, turns(w.y, w.x));
           }) < 5.0);
-    CHECK(z_of([](glm::vec2 u) {
+    CHECK(z_of([](Vec2f u) {
               const Vec3f w = square_to_sphere(u);
               return glm::dvec2(0.5 * (w.z + 1.0), turns(w.y, w.x));
           }) < 5.0);
-    CHECK(z_of([](glm::vec2 u) {
-              const glm::vec2 b = square_to_triangle(u);
+    CHECK(z_of([](Vec2f u) {
+              const Vec2f b = square_to_triangle(u);
               // Uniform on the triangle: 1 - b1 is the root of a uniform number, b2 uniform in what is left.
               return glm::dvec2((1.0 - b.x) * (1.0 - b.x), b.y / (1.0 - b.x));
           }) < 5.0);
     for (const float h : {2.0f, 0.5f, 1e-2f, 1e-6f, 1e-12f})
-        CHECK(z_of([h](glm::vec2 u) {
+        CHECK(z_of([h](Vec2f u) {
                   const Vec3f w = square_to_cone(u, h);
                   // 1 - cos from the sine, which keeps its digits.
                   const double s2 = double{w.x} * w.x + double{w.y} * w.y, one_minus = w.z > 0 ? s2 / (1.0 + std::sqrt(std::max(0.0, 1.0 - s2))) : 1.0 - w.z;
@@ -69,15 +70,15 @@ TEST_CASE("warps keep areas", "[scenes]") {
 TEST_CASE("warps of edges and corners are numbers in the domain", "[scenes]") {
     for (const float x : kEdges)
         for (const float y : kEdges) {
-            const glm::vec2 u{x, y};
-            const glm::vec2 d = square_to_disk(u);
+            const Vec2f u{x, y};
+            const Vec2f d = square_to_disk(u);
             INFO("u " << x << " " << y);
             CHECK(d.x * d.x + d.y * d.y <= 1.0f + 3e-7f);
             const Vec3f h = square_to_cosine_hemisphere(u);
             CHECK(h.z >= 0.0f);
             CHECK(std::fabs(length(h) - 1.0f) < 3e-7f);
             CHECK(std::fabs(length(square_to_sphere(u)) - 1.0f) < 3e-7f);
-            const glm::vec2 b = square_to_triangle(u);
+            const Vec2f b = square_to_triangle(u);
             CHECK(b.x >= 0.0f);
             CHECK(b.y >= 0.0f);
             CHECK(b.x + b.y <= 1.0f);
@@ -93,8 +94,8 @@ TEST_CASE("neighbours in the square are neighbours on the disk", "[scenes]") {
     double worst = 0;
     for (int i = 0; i < 999; ++i)
         for (int j = 0; j < 999; ++j) {
-            const glm::vec2 u{static_cast<float>(i) / 1000.0f, static_cast<float>(j) / 1000.0f};
-            const glm::vec2 a = square_to_disk(u), b = square_to_disk({u.x + 0.001f, u.y}), c = square_to_disk({u.x, u.y + 0.001f});
+            const Vec2f u{static_cast<float>(i) / 1000.0f, static_cast<float>(j) / 1000.0f};
+            const Vec2f a = square_to_disk(u), b = square_to_disk<float>({u.x + 0.001f, u.y}), c = square_to_disk<float>({u.x, u.y + 0.001f});
             worst = std::max({worst, std::hypot(double{a.x} - b.x, double{a.y} - b.y), std::hypot(double{a.x} - c.x, double{a.y} - c.y)});
         }
     // Along an edge of the square an eighth of the circle takes 1/2: pi per unit; across, 2; together below 3.8.

@@ -1,9 +1,8 @@
 #pragma once
 // Independent uniform numbers for tests that need no sampler.
 
+#include <koksma/math/vec3.h>
 #include <koksma/sampling/bits.h>
-
-#include <glm/vec2.hpp>
 
 namespace koksma::testing {
 
@@ -12,7 +11,7 @@ struct Uniform {
     std::uint32_t counter = 0;
     explicit Uniform(std::uint32_t seed) : key{seed, 0x5eedu} {}
     float operator()() noexcept { return unit_float(keyed_hash(key, counter++)); }
-    glm::vec2 pair() noexcept {
+    Vec2f pair() noexcept {
         const float x = (*this)();
         return {x, (*this)()};
     }

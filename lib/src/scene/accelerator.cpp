@@ -1,6 +1,8 @@
 #include <koksma/sampling/error.h>
 #include <koksma/scene/accelerator.h>
 
+#include <koksma/scene/ray_offset.h>
+
 #include "embree.h"
 
 #include <deque>
@@ -67,8 +69,8 @@ void bounds_user(const RTCBoundsFunctionArguments* args) {
         extent = {std::hypot(disk.s.x, disk.t.x), std::hypot(disk.s.y, disk.t.y), std::hypot(disk.s.z, disk.t.z)};
     }
     // Outward by a few roundings: the box is in float, the shape in double.
-    const auto low = [](double c, double e) { return next_float(next_float(static_cast<float>(c - e), false), false); };
-    const auto high = [](double c, double e) { return next_float(next_float(static_cast<float>(c + e), true), true); };
+    const auto low = [](double c, double e) { return next_float<float>(next_float<float>(static_cast<float>(c - e), false), false); };
+    const auto high = [](double c, double e) { return next_float<float>(next_float<float>(static_cast<float>(c + e), true), true); };
     args->bounds_o->lower_x = low(center.x, extent.x);
     args->bounds_o->lower_y = low(center.y, extent.y);
     args->bounds_o->lower_z = low(center.z, extent.z);

@@ -4,9 +4,22 @@ namespace koksma::detail {
 
 namespace {
 
+/// True if two textures are equal everywhere; false may also mean that nobody looked closely.
+bool is_same(const Texture& a, const Texture& b) {
+    if (a.index() != b.index()) return false;
+    if (const auto* constant = std::get_if<Rgb>(&a)) return *constant == std::get<Rgb>(b);
+    if (const auto* x = std::get_if<BitmapTexture>(&a)) {
+        const auto& y = std::get<BitmapTexture>(b);
+        return x->image == y.image && x->filter == y.filter && x->wrap == y.wrap && x->to_uv == y.to_uv;
+    }
+    const auto &x = std::get<CheckerboardTexture>(a), &y = std::get<CheckerboardTexture>(b);
+    return x.color0 == y.color0 && x.color1 == y.color1 && x.to_uv == y.to_uv;
+}
+
 struct SideCompiler {
     Scene& scene;
     MaterialSide side{};
+    bool anisotropic = false;
 
     void conductor(const Conductor& c) {
         side.perfect = c.perfect;
@@ -37,13 +50,18 @@ struct SideCompiler {
         side.ggx = c.distribution == RoughConductor::Distribution::ggx;
         side.alpha_u = texture_ref(scene, c.alpha_u);
         side.alpha_v = texture_ref(scene, c.alpha_v);
+        if (!is_same(c.alpha_u, c.alpha_v)) {
+            anisotropic = true;
+            scene.effects |= {Effect::anisotropic};
+        }
         scene.effects |= {Effect::glossy};
     }
 };
 
-std::uint32_t add_side(Scene& scene, const OneSidedMaterial& material) {
+std::uint32_t add_side(Scene& scene, const OneSidedMaterial& material, MaterialSides& sides) {
     SideCompiler compiler{scene};
     std::visit(compiler, material);
+    sides.anisotropic = sides.anisotropic || compiler.anisotropic;
     scene.sides.push_back(compiler.side);
     return static_cast<std::uint32_t>(scene.sides.size() - 1);
 }
@@ -59,9 +77,9 @@ void compile_materials(Scene& scene) {
         const Material& m = d.materials[i];
         MaterialSides sides;
         if (used[i]) {
-            sides.front = sides.back = add_side(scene, m.front);
+            sides.front = sides.back = add_side(scene, m.front, sides);
             sides.two_sided = m.two_sided;
-            if (m.back) sides.back = add_side(scene, *m.back);
+            if (m.back) sides.back = add_side(scene, *m.back, sides);
             if (m.two_sided) scene.effects |= {Effect::two_sided};
         }
         scene.materials.push_back(sides);

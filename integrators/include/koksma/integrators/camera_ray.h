@@ -10,7 +10,7 @@ namespace koksma {
 /// @param u_lens  position on the aperture, [0, 1)^2 (thin lens only)
 /// @return        ray with unit direction, clipped at the camera's near and far planes
 template <EffectSet kEffects>
-[[nodiscard]] Ray camera_ray(const Scene& scene, Pixel pixel, glm::vec2 u, glm::vec2 u_lens) noexcept {
+[[nodiscard]] Ray camera_ray(const Scene& scene, Pixel pixel, Vec2f u, Vec2f u_lens) noexcept {
     const CompiledCamera& c = scene.camera;
     const double fx = (pixel.x + static_cast<double>(u.x)) / scene.film.width + c.offset_x;
     const double fy = (pixel.y + static_cast<double>(u.y)) / scene.film.height + c.offset_y;
@@ -21,7 +21,7 @@ template <EffectSet kEffects>
     Vec3f local{x, y, 1.0f};
     if constexpr (kEffects.has(Effect::lens)) {
         if (c.aperture_radius > 0.0f) {
-            const glm::vec2 disk = square_to_disk(u_lens);
+            const Vec2f disk = square_to_disk(u_lens);
             const Vec3f on_lens{disk.x * c.aperture_radius, disk.y * c.aperture_radius, 0.0f};
             local = local * c.focus_distance - on_lens;
             ray.o = c.right * on_lens.x + c.up * on_lens.y;

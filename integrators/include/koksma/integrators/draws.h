@@ -2,6 +2,7 @@
 // The random numbers of a block of paths, fetched from the sampler by batch and read by role.
 
 #include <koksma/integrators/thread_clock.h>
+#include <koksma/math/vec3.h>
 #include <koksma/plan/plan.h>
 #include <koksma/sampling/sample_source.h>
 
@@ -44,8 +45,8 @@ public:
     }
     [[nodiscard]] const SampleId& id() const noexcept { return samples_[path_]; }
 
-    [[nodiscard]] glm::vec2 film() const noexcept { return {camera_[path_], camera_[kCapacity + path_]}; }
-    [[nodiscard]] glm::vec2 lens() const noexcept {
+    [[nodiscard]] Vec2f film() const noexcept { return {camera_[path_], camera_[kCapacity + path_]}; }
+    [[nodiscard]] Vec2f lens() const noexcept {
         if (plan_.lens < 0) return {0.0f, 0.0f};  // a kernel with a lens, a scene without
         const float* row = &camera_[static_cast<std::size_t>(plan_.lens) * kCapacity + path_];
         return {row[0], row[kCapacity]};
@@ -53,15 +54,15 @@ public:
     [[nodiscard]] float get_1d(std::size_t bounce, SlotRole role, std::int16_t BounceSlots::*member) noexcept {
         return bounce < plan_.bounces.size() ? value(bounce, plan_.bounces[bounce].*member, 0) : tail(bounce, role, 0);
     }
-    [[nodiscard]] glm::vec2 get_2d(std::size_t bounce, SlotRole role, std::int16_t BounceSlots::*member) noexcept {
+    [[nodiscard]] Vec2f get_2d(std::size_t bounce, SlotRole role, std::int16_t BounceSlots::*member) noexcept {
         if (bounce >= plan_.bounces.size()) return {tail(bounce, role, 0), tail(bounce, role, 1)};
         const std::int16_t offset = plan_.bounces[bounce].*member;
         return {value(bounce, offset, 0), value(bounce, offset, 1)};
     }
     [[nodiscard]] float light_choice(std::size_t b) noexcept { return get_1d(b, SlotRole::light_choice, &BounceSlots::light_choice); }
-    [[nodiscard]] glm::vec2 light_position(std::size_t b) noexcept { return get_2d(b, SlotRole::light_position, &BounceSlots::light_position); }
+    [[nodiscard]] Vec2f light_position(std::size_t b) noexcept { return get_2d(b, SlotRole::light_position, &BounceSlots::light_position); }
     [[nodiscard]] float lobe(std::size_t b) noexcept { return get_1d(b, SlotRole::lobe, &BounceSlots::lobe); }
-    [[nodiscard]] glm::vec2 direction(std::size_t b) noexcept { return get_2d(b, SlotRole::direction, &BounceSlots::direction); }
+    [[nodiscard]] Vec2f direction(std::size_t b) noexcept { return get_2d(b, SlotRole::direction, &BounceSlots::direction); }
     [[nodiscard]] float roulette(std::size_t b) noexcept { return get_1d(b, SlotRole::roulette, &BounceSlots::roulette); }
 
     /// Does the remembered fills of the block again, in one go, and takes the time: a clock around each single fill would

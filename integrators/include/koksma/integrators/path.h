@@ -26,13 +26,6 @@ struct NoObserver {
     void roulette(float, float, bool) noexcept {}
 };
 
-/// True if Embree may see the ray: finite, with a direction, and within the 1.844e18 beyond which it asserts.
-[[nodiscard]] inline bool is_traceable(const Ray& ray) noexcept {
-    constexpr float kLimit2 = 3.4e36f;  // the square of 1.844e18; a NaN fails every comparison
-    const float o2 = dot(ray.o, ray.o), d2 = dot(ray.d, ray.d);
-    return o2 < kLimit2 && d2 < kLimit2 && d2 > 0.0f;
-}
-
 /// After so many bounces in a row without any loss a path is played for.
 inline constexpr std::int32_t kLosslessBounces = 256;
 
@@ -57,7 +50,7 @@ template <EffectSet kEffects, class Observer>
     Vec3f last_p{0.0f};
     [[maybe_unused]] std::int32_t lossless = 0;  // bounces in a row after which nothing was lost
 
-    glm::vec2 u_lens{0.0f};
+    Vec2f u_lens;
     if constexpr (kEffects.has(Effect::lens)) u_lens = draws.lens();
     Ray ray = camera_ray<kEffects>(scene, draws.id().pixel, draws.film(), u_lens);
     observer.camera(ray);
@@ -70,7 +63,7 @@ template <EffectSet kEffects, class Observer>
 
     for (std::int32_t depth = 0;; ++depth) {
         // ---- where the ray goes
-        if (!is_traceable(ray)) return kInvalid;
+        if (!is_traceable(ray.o, ray.d)) return kInvalid;
         ++rays.closest;
         const Hit hit = scene.accelerator.intersect(ray);
         if (!hit.valid()) {
@@ -121,7 +114,7 @@ template <EffectSet kEffects, class Observer>
                     index = choice.index;
                     probability = choice.probability;
                 }
-                glm::vec2 u_light{0.0f};
+                Vec2f u_light;
                 if constexpr (kExtendedLights) u_light = draws.light_position(bounce);
                 const LightSample light = sample_light<kEffects>(scene, scene.lights[index], surface.p, u_light);
                 if (light.pdf_w > 0.0f) {
@@ -134,7 +127,7 @@ template <EffectSet kEffects, class Observer>
                         shadow.o = offset_origin(surface.p, surface.p_error, surface.ng, light.wi);
                         shadow.d = light.at_infinity ? light.wi : light.target - shadow.o;
                         shadow.t_far = light.at_infinity ? kInfinity : 1.0f;
-                        if (!is_traceable(shadow)) return kInvalid;
+                        if (!is_traceable(shadow.o, shadow.d)) return kInvalid;
                         ++rays.shadow;
                         const bool visible = !scene.accelerator.occluded(shadow);
                         if (visible) radiance += contribution;
@@ -147,8 +140,8 @@ template <EffectSet kEffects, class Observer>
         // ---- where the path goes on
         float u_lobe = 0.0f;
         if constexpr (kEffects.has(Effect::dielectric))
-            if (local.bsdf.kind == BsdfKind::dielectric) u_lobe = draws.lobe(bounce);
-        glm::vec2 u_direction{0.0f};
+            if (is(local.bsdf, BsdfKind::dielectric)) u_lobe = draws.lobe(bounce);
+        Vec2f u_direction;
         if constexpr (kSmooth)
             if (has_smooth_lobe(local.bsdf)) u_direction = draws.direction(bounce);
         const BsdfSample next = sample_bsdf<kEffects>(local.bsdf, wo_local, u_lobe, u_direction);

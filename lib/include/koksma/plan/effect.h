@@ -24,14 +24,15 @@ enum class Effect : std::uint8_t {
     texture,          ///< values that vary over a surface
     analytic_shape,   ///< spheres and disks
     shading_normals,  ///< interpolated normals
+    anisotropic,      ///< BSDFs that depend on the direction of u: a frame from the UVs
     roulette,         ///< Russian roulette: a 1-D draw per bounce from rr_depth on
 };
-inline constexpr int kEffectCount = 15;
+inline constexpr int kEffectCount = 16;
 
 [[nodiscard]] constexpr std::string_view name(Effect e) noexcept {
     constexpr std::string_view kNames[kEffectCount] = {"lens",       "light_choice", "area_light", "sphere_light",   "point_light",
                                                        "environment", "diffuse",      "glossy",     "specular",       "dielectric",
-                                                       "two_sided",  "texture",      "analytic_shape", "shading_normals", "roulette"};
+                                                       "two_sided",  "texture",      "analytic_shape", "shading_normals", "anisotropic", "roulette"};
     return kNames[static_cast<int>(e)];
 }
 

@@ -1,70 +1,74 @@
-#pragma once
 // Maps from the unit square to the domains that a path tracer samples. Continuous, so neighbouring strata stay neighbours.
 
 #include <koksma/math/vec3.h>
 #include <koksma/simd/elementary.h>
 
-#include <glm/vec2.hpp>
+#if defined(KOKSMA_SAMPLING_WARPS_H) == defined(KOKSMA_MATHS_TOGGLE)
+#ifdef KOKSMA_SAMPLING_WARPS_H
+#undef KOKSMA_SAMPLING_WARPS_H
+#else
+#define KOKSMA_SAMPLING_WARPS_H
+#endif
 
-#include <cmath>
-
-namespace koksma {
+KOKSMA_MATHS_BEGIN
 
 /// Uniform on the unit disk.
 /// @param u  [0, 1)^2
 /// Source: Shirley and Chiu 1997, "A low distortion map between disk and square", JGT 2(3)
-[[nodiscard]] inline glm::vec2 square_to_disk(glm::vec2 u) noexcept {
-    const float a = 2.0f * u.x - 1.0f, b = 2.0f * u.y - 1.0f;
-    if (a == 0.0f && b == 0.0f) return {0.0f, 0.0f};
-    const bool wide = std::fabs(a) > std::fabs(b);
-    const float r = wide ? a : b;
-    const float turns = wide ? 0.125f * (b / a) : 0.25f - 0.125f * (a / b);
-    const SinCos sc = sincos_turns(turns);
+template <class Real>
+[[nodiscard]] Vec2<Real> square_to_disk(Vec2<Real> u) noexcept {
+    const Real a = Real(2.0f) * u.x - Real(1.0f), b = Real(2.0f) * u.y - Real(1.0f);
+    const auto wide = abs(a) > abs(b);
+    const Real r = select(wide, a, b);
+    const Real quotient = select(wide, b, a) / select(r == Real(0.0f), Real(1.0f), r);  // at the centre any angle will do
+    const Real turns = select(wide, Real(0.125f) * quotient, Real(0.25f) - Real(0.125f) * quotient);
+    const SinCosOf<Real> sc = sincos_turns(turns);
     return {r * sc.cos, r * sc.sin};
 }
 
 /// Cosine-weighted on the hemisphere around +z.
 /// @return  unit vector, z >= 0; density z / pi per steradian; z is 0 for no u in [0, 1)^2 beyond rounding
-[[nodiscard]] inline Vec3f square_to_cosine_hemisphere(glm::vec2 u) noexcept {
-    const glm::vec2 d = square_to_disk(u);
-    const float z2 = 1.0f - d.x * d.x - d.y * d.y;
-    return {d.x, d.y, std::sqrt(z2 > 0.0f ? z2 : 0.0f)};
+template <class Real>
+[[nodiscard]] Vec3<Real> square_to_cosine_hemisphere(Vec2<Real> u) noexcept {
+    const Vec2<Real> d = square_to_disk(u);
+    const Real z2 = Real(1.0f) - d.x * d.x - d.y * d.y;
+    return {d.x, d.y, sqrt(select(z2 > Real(0.0f), z2, Real(0.0f)))};
 }
 
 /// Uniform on the sphere; density 1 / (4 pi).
-[[nodiscard]] inline Vec3f square_to_sphere(glm::vec2 u) noexcept {
-    const float z = 1.0f - 2.0f * u.y;
-    const float r = 2.0f * std::sqrt(u.y * (1.0f - u.y));  // sqrt(1 - z^2) without its cancellation
-    const SinCos sc = sincos_turns(u.x);
+template <class Real>
+[[nodiscard]] Vec3<Real> square_to_sphere(Vec2<Real> u) noexcept {
+    const Real z = Real(1.0f) - Real(2.0f) * u.y;
+    const Real r = Real(2.0f) * sqrt(u.y * (Real(1.0f) - u.y));  // sqrt(1 - z^2) without its cancellation
+    const SinCosOf<Real> sc = sincos_turns(u.x);
     return {r * sc.cos, r * sc.sin, z};
 }
 
 /// Uniform on a triangle. @return  barycentrics of the second and third vertex
 /// Source: Heitz 2019, "A low-distortion map between triangle and square"
-[[nodiscard]] inline glm::vec2 square_to_triangle(glm::vec2 u) noexcept {
-    float b1 = u.x, b2 = u.y;
-    if (b2 > b1) {
-        b1 *= 0.5f;
-        b2 -= b1;
-    } else {
-        b2 *= 0.5f;
-        b1 -= b2;
-    }
-    return {b1, b2};
+template <class Real>
+[[nodiscard]] Vec2<Real> square_to_triangle(Vec2<Real> u) noexcept {
+    const auto upper = u.y > u.x;
+    const Real x = Real(0.5f) * u.x, y = Real(0.5f) * u.y;
+    return {select(upper, x, u.x - y), select(upper, u.y - x, y)};
 }
 
 /// 1 - cos(theta) from sin^2(theta), for theta in [0, pi/2], without cancellation.
-[[nodiscard]] inline float one_minus_cos(float sin2) noexcept {
-    return sin2 / (1.0f + std::sqrt(1.0f - sin2 > 0.0f ? 1.0f - sin2 : 0.0f));
+template <class Real>
+[[nodiscard]] Real one_minus_cos(Real sin2) noexcept {
+    const Real cos2 = Real(1.0f) - sin2;
+    return sin2 / (Real(1.0f) + sqrt(select(cos2 > Real(0.0f), cos2, Real(0.0f))));
 }
 
 /// Uniform in a cone around +z. @param one_minus_cos_max  1 - cos of the half angle, > 0
 /// @return  unit vector; density 1 / (2 pi one_minus_cos_max)
-[[nodiscard]] inline Vec3f square_to_cone(glm::vec2 u, float one_minus_cos_max) noexcept {
-    const float h = u.y * one_minus_cos_max;         // 1 - cos(theta)
-    const float r = std::sqrt(h * (2.0f - h));       // sin(theta), no cancellation for small cones
-    const SinCos sc = sincos_turns(u.x);
-    return {r * sc.cos, r * sc.sin, 1.0f - h};
+template <class Real>
+[[nodiscard]] Vec3<Real> square_to_cone(Vec2<Real> u, Real one_minus_cos_max) noexcept {
+    const Real h = u.y * one_minus_cos_max;          // 1 - cos(theta)
+    const Real r = sqrt(h * (Real(2.0f) - h));       // sin(theta), no cancellation for small cones
+    const SinCosOf<Real> sc = sincos_turns(u.x);
+    return {r * sc.cos, r * sc.sin, Real(1.0f) - h};
 }
 
-}  // namespace koksma
+KOKSMA_MATHS_END
+#endif

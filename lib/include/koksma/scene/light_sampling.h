@@ -1,6 +1,7 @@
 #pragma once
 // Emission, and how lights are sampled: position and density always by the same expressions, so that MIS weights add up to one.
 
+#include <koksma/scene/light_maths.h>
 #include <koksma/scene/surface.h>
 
 namespace koksma {
@@ -15,20 +16,11 @@ struct LightSample {
     Vec3f target;             ///< end of the shadow ray, already moved off the light's surface
 };
 
-/// Multiple importance sampling weight of a technique with density a against one with density b.
-/// The ratio form neither overflows nor gives 0/0 for densities beyond the square root of float's range.
-/// Source: Veach 1997, section 9.2.4 (power heuristic, exponent 2)
-[[nodiscard]] constexpr float power_heuristic(float a, float b) noexcept {
-    if (!(a > 0.0f)) return 0.0f;
-    const float r = b / a;
-    return 1.0f / (1.0f + r * r);
-}
-
 /// Radiance that leaves a surface toward wo. Zero from behind.
 template <EffectSet kEffects>
 [[nodiscard]] Vec3f emitted(const Scene& scene, const Surface& s, Vec3f wo) noexcept {
     const std::int32_t light = scene.geometries[s.geometry].light;
-    if (light < 0 || !(dot(wo, s.shading.n) > 0.0f)) return Vec3f{0.0f};
+    if (light < 0 || !(dot(wo, s.n) > 0.0f)) return Vec3f{0.0f};
     return texture_value<kEffects>(scene, scene.lights[static_cast<std::size_t>(light)].radiance, s.uv);
 }
 
@@ -51,11 +43,6 @@ template <EffectSet kEffects>
     return static_cast<float>(sin2 / (1.0 + std::sqrt(1.0 - sin2)));
 }
 
-/// Density per steradian of a point at distance^2 whose normal makes |cos| with the direction.
-[[nodiscard]] inline float area_to_solid_angle(float distance2, float abs_cos, float area) noexcept {
-    return abs_cos > 0.0f ? distance2 / (abs_cos * area) : 0.0f;
-}
-
 /// Density with which sample_light would have drawn the direction from p to the surface s of this light.
 template <EffectSet kEffects>
 [[nodiscard]] float light_pdf(const Scene& scene, const Light& light, Vec3f p, const Surface& s, Vec3f wi) noexcept {
@@ -75,14 +62,6 @@ template <EffectSet kEffects>
 
 namespace detail {
 
-/// The end of a shadow ray on a light's surface, moved off it to the side of `side`. Beyond the error of the point itself, Embree
-/// rounds differences between the ray's origin and the light's vertices, so its error at the light grows with the distance:
-/// 8 roundings of it (2 in the direction, 6 in the plane's dot product and quotient). Without this, 0.16 % of the shadow
-/// rays to a rectangle 4 m away met the rectangle.
-[[nodiscard]] inline Vec3f shadow_target(const Surface& s, float distance, Vec3f side) noexcept {
-    return offset_origin(s.p, s.p_error + Vec3f(distance * error_gamma(8)), s.ng, side);
-}
-
 /// Completes a sample whose point on the light is known.
 template <EffectSet kEffects>
 [[nodiscard]] LightSample toward(const Scene& scene, const Light& light, const Surface& s, Vec3f p, float pdf_cone) noexcept {
@@ -91,10 +70,10 @@ template <EffectSet kEffects>
     if (!(d2 > 0.0f)) return {};
     LightSample out;
     out.wi = d * (1.0f / std::sqrt(d2));
-    if (!(dot(out.wi, s.shading.n) < 0.0f)) return {};
+    if (!(dot(out.wi, s.n) < 0.0f)) return {};
     out.pdf_w = pdf_cone > 0.0f ? pdf_cone : area_to_solid_angle(d2, std::fabs(dot(s.ng, out.wi)), light.area);
     out.radiance = texture_value<kEffects>(scene, light.radiance, s.uv);
-    out.target = shadow_target(s, std::sqrt(d2), -d);
+    out.target = shadow_target(s.p, s.p_error, s.ng, std::sqrt(d2), -d);
     return out;
 }
 
@@ -102,7 +81,7 @@ template <EffectSet kEffects>
 
 /// Draws a direction toward a light as seen from p.
 template <EffectSet kEffects>
-[[nodiscard]] LightSample sample_light(const Scene& scene, const Light& light, Vec3f p, glm::vec2 u) noexcept {
+[[nodiscard]] LightSample sample_light(const Scene& scene, const Light& light, Vec3f p, Vec2f u) noexcept {
     if constexpr (kEffects.has(Effect::point_light))
         if (light.kind == LightKind::point) {
             const Vec3f d = light.corner - p;
@@ -125,7 +104,7 @@ template <EffectSet kEffects>
             const AnalyticSphere& sphere = scene.spheres[scene.geometries[light.geometry].first];
             if (!sampled_by_cone(scene, light)) {
                 const Vec3f q = square_to_sphere(u);
-                return detail::toward<kEffects>(scene, light, sphere_surface(scene, light.geometry, to_double(q)), p, 0.0f);
+                return detail::toward<kEffects>(scene, light, sphere_surface<kEffects>(scene, light.geometry, to_double(q)), p, 0.0f);
             }
             const float h = sphere_cone(sphere, p);
             if (!(h > 0.0f)) return {};
@@ -137,18 +116,18 @@ template <EffectSet kEffects>
             const double cos_d = local.z, sin2_d = static_cast<double>(local.x) * local.x + static_cast<double>(local.y) * local.y;
             const double half_chord2 = sphere.radius * sphere.radius - distance * distance * sin2_d;
             const double t = distance * cos_d - std::sqrt(half_chord2 > 0.0 ? half_chord2 : 0.0);
-            const Surface s = sphere_surface(scene, light.geometry, to_double(wi) * t - to_center);
+            const Surface s = sphere_surface<kEffects>(scene, light.geometry, to_double(wi) * t - to_center);
             LightSample out;
             out.wi = wi;
             out.pdf_w = 1.0f / (2.0f * kPi * h);
             out.radiance = texture_value<kEffects>(scene, light.radiance, s.uv);
-            out.target = detail::shadow_target(s, static_cast<float>(t), s.ng);
+            out.target = shadow_target(s.p, s.p_error, s.ng, static_cast<float>(t), s.ng);
             return out;
         }
     if constexpr (kEffects.has(Effect::area_light)) {
         if (light.kind == LightKind::parallelogram || light.kind == LightKind::mesh) {
             std::uint32_t triangle = 0;
-            glm::vec2 b;
+            Vec2f b;
             if (light.kind == LightKind::parallelogram) {
                 // Two triangles (0, 1, 2) and (0, 2, 3) over corners in circular order: the square maps without a seam.
                 if (u.x >= u.y) {
@@ -165,13 +144,13 @@ template <EffectSet kEffects>
                 }
                 b = square_to_triangle(u);
             }
-            const Surface s = triangle_surface(scene, light.geometry, scene.geometries[light.geometry].first + triangle, b);
+            const Surface s = triangle_surface<kEffects>(scene, light.geometry, scene.geometries[light.geometry].first + triangle, b);
             return detail::toward<kEffects>(scene, light, s, p, 0.0f);
         }
         if constexpr (kEffects.has(Effect::analytic_shape))
             if (light.kind == LightKind::disk) {
-                const glm::vec2 q = square_to_disk(u);
-                return detail::toward<kEffects>(scene, light, disk_surface(scene, light.geometry, q.x, q.y), p, 0.0f);
+                const Vec2f q = square_to_disk(u);
+                return detail::toward<kEffects>(scene, light, disk_surface<kEffects>(scene, light.geometry, q.x, q.y), p, 0.0f);
             }
     }
     return {};

@@ -27,6 +27,7 @@ struct MaterialSide {
 struct MaterialSides {
     std::uint32_t front = 0, back = 0;
     bool two_sided = false;
+    bool anisotropic = false;  ///< either side
 };
 
 enum class GeometryKind : std::uint8_t { mesh, sphere, disk };

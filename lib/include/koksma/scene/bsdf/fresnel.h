@@ -1,49 +1,60 @@
-#pragma once
 // Reflectance of an interface for unpolarised light.
 
 #include <koksma/math/vec3.h>
 
-#include <cmath>
+#if defined(KOKSMA_SCENE_BSDF_FRESNEL_H) == defined(KOKSMA_MATHS_TOGGLE)
+#ifdef KOKSMA_SCENE_BSDF_FRESNEL_H
+#undef KOKSMA_SCENE_BSDF_FRESNEL_H
+#else
+#define KOKSMA_SCENE_BSDF_FRESNEL_H
+#endif
 
-namespace koksma {
+KOKSMA_MATHS_BEGIN
 
-struct DielectricFresnel {
-    float reflectance;  ///< [0, 1]; 1 beyond the critical angle
-    float cos_t;        ///< cosine of the refracted direction, with the sign opposite to cos_i; 0 beyond the critical angle
-    float eta_ti;       ///< index of the incident over the transmitted side
+template <class Real>
+struct DielectricFresnelOf {
+    Real reflectance;  ///< [0, 1]; 1 beyond the critical angle
+    Real cos_t;        ///< cosine of the refracted direction, with the sign opposite to cos_i; 0 beyond the critical angle
+    Real eta_ti;       ///< index of the incident over the transmitted side
 };
 
 /// @param cos_i  cosine between the normal and the direction; negative: from inside
 /// @param eta    index below the surface over the index above it, > 0
 /// Source: Born and Wolf, Principles of Optics, section 1.5.2
-[[nodiscard]] inline DielectricFresnel fresnel_dielectric(float cos_i, float eta) noexcept {
-    const bool outside = cos_i >= 0.0f;
-    const float eta_it = outside ? eta : 1.0f / eta, eta_ti = outside ? 1.0f / eta : eta;
-    const float cos2_t = 1.0f - eta_ti * eta_ti * (1.0f - cos_i * cos_i);
-    if (!(cos2_t > 0.0f)) return {1.0f, 0.0f, eta_ti};
-    const float ci = std::fabs(cos_i), ct = std::sqrt(cos2_t);
-    const float s = (ci - eta_it * ct) / (ci + eta_it * ct);
-    const float p = (eta_it * ci - ct) / (eta_it * ci + ct);
-    const float r = eta == 1.0f ? 0.0f : 0.5f * (s * s + p * p);
-    return {r, outside ? -ct : ct, eta_ti};
+template <class Real>
+[[nodiscard]] DielectricFresnelOf<Real> fresnel_dielectric(Real cos_i, Real eta) noexcept {
+    const auto outside = cos_i >= Real(0.0f);
+    const Real inverse = Real(1.0f) / eta;
+    const Real eta_it = select(outside, eta, inverse), eta_ti = select(outside, inverse, eta);
+    const Real cos2_t = Real(1.0f) - eta_ti * eta_ti * (Real(1.0f) - cos_i * cos_i);
+    const auto transmits = cos2_t > Real(0.0f);
+    const Real ci = abs(cos_i), ct = sqrt(select(transmits, cos2_t, Real(0.0f)));
+    const Real s = (ci - eta_it * ct) / (ci + eta_it * ct);
+    const Real p = (eta_it * ci - ct) / (eta_it * ci + ct);
+    const Real r = select(eta == Real(1.0f), Real(0.0f), Real(0.5f) * (s * s + p * p));
+    return {select(transmits, r, Real(1.0f)), select(outside, -ct, ct), eta_ti};
 }
 
 /// Per channel. @param cos_i  [0, 1]; @param eta, k  real and imaginary index relative to the outside
 /// Source: Born and Wolf, Principles of Optics, section 14.2, in the form of S. Lagarde 2013, "Memo on Fresnel equations"
-[[nodiscard]] inline float fresnel_conductor(float cos_i, float eta, float k) noexcept {
-    const float c2 = cos_i * cos_i, s2 = 1.0f - c2;
-    const float t0 = eta * eta - k * k - s2;
-    const float a2b2 = std::sqrt(t0 * t0 + 4.0f * k * k * eta * eta);
-    const float t1 = a2b2 + c2;
-    const float half = 0.5f * (a2b2 + t0);
-    const float a = std::sqrt(half > 0.0f ? half : 0.0f);
-    const float t2 = 2.0f * a * cos_i;
-    const float rs = (t1 - t2) / (t1 + t2);
-    const float t3 = a2b2 * c2 + s2 * s2;
-    const float t4 = t2 * s2;
-    const float rp = t3 + t4 > 0.0f ? rs * (t3 - t4) / (t3 + t4) : rs;  // both zero: normal incidence on eta = k = 0
-    const float r = 0.5f * (rs + rp);
-    return r > 0.0f ? r : 0.0f;  // by an index of 1 rounding makes it -6e-8
+template <class Real>
+[[nodiscard]] Real fresnel_conductor(Real cos_i, Real eta, Real k) noexcept {
+    const Real c2 = cos_i * cos_i, s2 = Real(1.0f) - c2;
+    const Real t0 = eta * eta - k * k - s2;
+    const Real a2b2 = sqrt(t0 * t0 + Real(4.0f) * k * k * eta * eta);
+    const Real t1 = a2b2 + c2;
+    const Real half = Real(0.5f) * (a2b2 + t0);
+    const Real a = sqrt(select(half > Real(0.0f), half, Real(0.0f)));
+    const Real t2 = Real(2.0f) * a * cos_i;
+    const Real rs = (t1 - t2) / (t1 + t2);
+    const Real t3 = a2b2 * c2 + s2 * s2;
+    const Real t4 = t2 * s2;
+    // Both zero: normal incidence on eta = k = 0.
+    const auto regular = t3 + t4 > Real(0.0f);
+    const Real rp = select(regular, rs * (t3 - t4) / select(regular, t3 + t4, Real(1.0f)), rs);
+    const Real r = Real(0.5f) * (rs + rp);
+    return select(r > Real(0.0f), r, Real(0.0f));  // by an index of 1 rounding makes it -6e-8
 }
 
-}  // namespace koksma
+KOKSMA_MATHS_END
+#endif

@@ -1,0 +1,161 @@
+// Packs: as many floats or 32-bit integers as a register of the instruction set holds (at most 16), with the operations of
+// scalar.h. The one wrapper of the SIMD library (Google Highway); seen through each_target.h only, which reads it once for
+// each instruction set (so it has no guard). No pack crosses a public
+// boundary: kernels read and write plain arrays.
+//
+// All arithmetic is IEEE, one rounding an operation, no reciprocal estimates, no fused multiply-add: a lane computes what
+// a float computes, bit for bit.
+
+#include <cstddef>
+#include <cstdint>
+
+HWY_BEFORE_NAMESPACE();
+namespace koksma::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+template <class T>
+using Tag = hn::CappedTag<T, 16>;
+inline constexpr int kLanes = static_cast<int>(hn::MaxLanes(Tag<float>()));
+
+/// Which lanes.
+struct Mask {
+    using Raw = decltype(hn::FirstN(Tag<float>(), std::size_t{1}));
+    Raw raw;
+    Mask() = default;  // `Mask{}`: no lane
+    HWY_INLINE Mask(Raw r) : raw(r) {}  // NOLINT: a pack is its register
+    /// The first n lanes.
+    [[nodiscard]] static HWY_INLINE Mask first(std::size_t n) { return hn::FirstN(Tag<float>(), n); }
+    friend HWY_INLINE Mask operator&(Mask a, Mask b) { return hn::And(a.raw, b.raw); }
+    friend HWY_INLINE Mask operator|(Mask a, Mask b) { return hn::Or(a.raw, b.raw); }
+    friend HWY_INLINE Mask operator&&(Mask a, Mask b) { return hn::And(a.raw, b.raw); }
+    friend HWY_INLINE Mask operator||(Mask a, Mask b) { return hn::Or(a.raw, b.raw); }
+    friend HWY_INLINE Mask operator!(Mask a) { return hn::Not(a.raw); }
+    friend HWY_INLINE Mask operator==(Mask a, Mask b) { return hn::Not(hn::Xor(a.raw, b.raw)); }
+    friend HWY_INLINE Mask operator!=(Mask a, Mask b) { return hn::Xor(a.raw, b.raw); }
+};
+[[nodiscard]] HWY_INLINE bool any(Mask m) { return !hn::AllFalse(Tag<float>(), m.raw); }
+[[nodiscard]] HWY_INLINE bool all(Mask m) { return hn::AllTrue(Tag<float>(), m.raw); }
+[[nodiscard]] HWY_INLINE int count(Mask m) { return static_cast<int>(hn::CountTrue(Tag<float>(), m.raw)); }
+/// One bit a lane.
+[[nodiscard]] HWY_INLINE std::uint32_t lane_bits(Mask m) {
+    alignas(8) std::uint8_t bytes[8] = {};
+    hn::StoreMaskBits(Tag<float>(), m.raw, bytes);
+    return static_cast<std::uint32_t>(bytes[0] | (bytes[1] << 8)) & ((1u << kLanes) - 1u);
+}
+
+/// What float, int32_t and uint32_t packs have in common.
+template <class Self, class T>
+struct PackBase {
+    using Raw = hn::VFromD<Tag<T>>;
+    Raw raw;
+
+    [[nodiscard]] static HWY_INLINE Self load(const T* aligned) { return hn::Load(Tag<T>(), aligned); }
+    [[nodiscard]] static HWY_INLINE Self load_any(const T* p) { return hn::LoadU(Tag<T>(), p); }
+    HWY_INLINE void store(T* aligned) const { hn::Store(raw, Tag<T>(), aligned); }
+    HWY_INLINE void store_any(T* p) const { hn::StoreU(raw, Tag<T>(), p); }
+    /// Stores the lanes of the mask one after the other. May write up to a whole pack: leave room.
+    HWY_INLINE std::size_t compress_store(Mask m, T* p) const {
+        return hn::CompressStore(raw, hn::RebindMask(Tag<T>(), m.raw), Tag<T>(), p);
+    }
+    friend HWY_INLINE Self operator+(Self a, Self b) { return hn::Add(a.raw, b.raw); }
+    friend HWY_INLINE Self operator-(Self a, Self b) { return hn::Sub(a.raw, b.raw); }
+    friend HWY_INLINE Self operator*(Self a, Self b) { return hn::Mul(a.raw, b.raw); }
+    friend HWY_INLINE Mask operator==(Self a, Self b) { return hn::RebindMask(Tag<float>(), hn::Eq(a.raw, b.raw)); }
+    friend HWY_INLINE Mask operator!=(Self a, Self b) { return hn::RebindMask(Tag<float>(), hn::Ne(a.raw, b.raw)); }
+    friend HWY_INLINE Mask operator<(Self a, Self b) { return hn::RebindMask(Tag<float>(), hn::Lt(a.raw, b.raw)); }
+    friend HWY_INLINE Mask operator>(Self a, Self b) { return hn::RebindMask(Tag<float>(), hn::Gt(a.raw, b.raw)); }
+    friend HWY_INLINE Mask operator<=(Self a, Self b) { return hn::RebindMask(Tag<float>(), hn::Le(a.raw, b.raw)); }
+    friend HWY_INLINE Mask operator>=(Self a, Self b) { return hn::RebindMask(Tag<float>(), hn::Ge(a.raw, b.raw)); }
+    HWY_INLINE Self& operator+=(Self b) { return self() = self() + b; }
+    HWY_INLINE Self& operator-=(Self b) { return self() = self() - b; }
+    HWY_INLINE Self& operator*=(Self b) { return self() = self() * b; }
+    friend HWY_INLINE Self select(Mask m, Self yes, Self no) {
+        return hn::IfThenElse(hn::RebindMask(Tag<T>(), m.raw), yes.raw, no.raw);
+    }
+    friend HWY_INLINE void assign(Mask m, Self& dst, const Self& src) { dst = select(m, src, dst); }
+
+private:
+    HWY_INLINE Self& self() { return static_cast<Self&>(*this); }
+};
+
+// Constructors are written out in each: GCC gives inherited ones no instruction set. Trivial default: `Float{}` is zero.
+struct Float : PackBase<Float, float> {
+    Float() = default;
+    HWY_INLINE Float(Raw r) : PackBase{r} {}                         // NOLINT: a pack is its register,
+    HWY_INLINE Float(float x) : PackBase{hn::Set(Tag<float>(), x)} {}  // NOLINT: and a number is a pack of equal lanes
+    friend HWY_INLINE Float operator/(Float a, Float b) { return hn::Div(a.raw, b.raw); }
+    friend HWY_INLINE Float operator-(Float a) { return hn::Neg(a.raw); }
+};
+
+/// 32-bit integers, signed or not; arithmetic wraps.
+template <class Self, class T>
+struct IntegerBase : PackBase<Self, T> {
+    friend HWY_INLINE Self operator&(Self a, Self b) { return hn::And(a.raw, b.raw); }
+    friend HWY_INLINE Self operator|(Self a, Self b) { return hn::Or(a.raw, b.raw); }
+    friend HWY_INLINE Self operator^(Self a, Self b) { return hn::Xor(a.raw, b.raw); }
+};
+struct Int32 : IntegerBase<Int32, std::int32_t> {
+    Int32() = default;
+    HWY_INLINE Int32(Raw r) : IntegerBase{{r}} {}                                  // NOLINT
+    HWY_INLINE Int32(std::int32_t x) : IntegerBase{{hn::Set(Tag<std::int32_t>(), x)}} {}  // NOLINT
+};
+struct UInt32 : IntegerBase<UInt32, std::uint32_t> {
+    UInt32() = default;
+    HWY_INLINE UInt32(Raw r) : IntegerBase{{r}} {}                                  // NOLINT
+    HWY_INLINE UInt32(std::uint32_t x) : IntegerBase{{hn::Set(Tag<std::uint32_t>(), x)}} {}  // NOLINT
+};
+
+using koksma::select;
+using koksma::any;
+using koksma::all;
+using koksma::assign;
+
+[[nodiscard]] HWY_INLINE Float abs(Float x) { return hn::Abs(x.raw); }
+[[nodiscard]] HWY_INLINE Float sqrt(Float x) { return hn::Sqrt(x.raw); }
+[[nodiscard]] HWY_INLINE Float floor(Float x) { return hn::Floor(x.raw); }
+[[nodiscard]] HWY_INLINE Float copysign(Float magnitude, Float sign) { return hn::CopySign(magnitude.raw, sign.raw); }
+[[nodiscard]] HWY_INLINE Int32 to_int(Float x) { return hn::ConvertTo(Tag<std::int32_t>(), x.raw); }
+[[nodiscard]] HWY_INLINE Float to_real(Int32 x) { return hn::ConvertTo(Tag<float>(), x.raw); }
+[[nodiscard]] HWY_INLINE Int32 bits_of(Float x) { return hn::BitCast(Tag<std::int32_t>(), x.raw); }
+[[nodiscard]] HWY_INLINE Float real_of(Int32 x) { return hn::BitCast(Tag<float>(), x.raw); }
+[[nodiscard]] HWY_INLINE UInt32 as_uint(Int32 x) { return hn::BitCast(Tag<std::uint32_t>(), x.raw); }
+[[nodiscard]] HWY_INLINE Int32 as_int(UInt32 x) { return hn::BitCast(Tag<std::int32_t>(), x.raw); }
+template <int n>
+[[nodiscard]] HWY_INLINE Int32 shift_left(Int32 x) {
+    return hn::ShiftLeft<n>(x.raw);
+}
+template <int n>
+[[nodiscard]] HWY_INLINE Int32 shift_right(Int32 x) {
+    return hn::ShiftRight<n>(x.raw);
+}
+template <int n>
+[[nodiscard]] HWY_INLINE UInt32 shift_left(UInt32 x) {
+    return hn::ShiftLeft<n>(x.raw);
+}
+template <int n>
+[[nodiscard]] HWY_INLINE UInt32 shift_right(UInt32 x) {
+    return hn::ShiftRight<n>(x.raw);
+}
+/// first, first + 1, ...
+[[nodiscard]] HWY_INLINE Int32 iota(std::int32_t first) { return hn::Iota(Tag<std::int32_t>(), first); }
+
+/// base[index] of each lane. Every lane's index must be readable, also where a mask will drop the value.
+[[nodiscard]] HWY_INLINE Float gather(const float* base, Int32 index) { return hn::GatherIndex(Tag<float>(), base, index.raw); }
+[[nodiscard]] HWY_INLINE Int32 gather(const std::int32_t* base, Int32 index) { return hn::GatherIndex(Tag<std::int32_t>(), base, index.raw); }
+
+template <class Real>
+struct Lanes;
+template <>
+struct Lanes<Float> {
+    using Mask = HWY_NAMESPACE::Mask;
+    using Int = HWY_NAMESPACE::Int32;
+    static constexpr int kCount = kLanes;
+};
+template <class Real>
+using MaskOf = typename Lanes<Real>::Mask;
+template <class Real>
+using IntOf = typename Lanes<Real>::Int;
+
+}  // namespace koksma::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
