@@ -1,19 +1,33 @@
+#include <koksma/integrators/draws.h>
+#include <koksma/integrators/kernel.h>
 #include <koksma/sampling/error.h>
+#include <koksma/simd/targets.h>
 
-#include "kernel_body.h"
+#include "batch/batch_state.h"
+#include "kernel_sets.h"
 
 #include <array>
+#include <string>
 
 namespace koksma {
 
 namespace {
 
-constexpr std::array<Kernel, 4> kKernels{{
-    {"reference/diffuse", detail::kDiffuseEffects, detail::trace_block<detail::kDiffuseEffects>},
-    {"reference/specular", detail::kSpecularEffects, detail::trace_block<detail::kSpecularEffects>},
-    {"reference/diffuse-textured", detail::kDiffuseTexturedEffects, detail::trace_block<detail::kDiffuseTexturedEffects>},
-    {"reference/all", EffectSet::all(), detail::trace_block<EffectSet::all()>},
+constexpr std::size_t kBlock = Draws::kCapacity, kBatch = detail::kBatchCapacity;
+
+constexpr std::array<Kernel, 8> kKernels{{
+    {"batch/diffuse", detail::kDiffuseEffects, kBatch, detail::make_batch_diffuse},
+    {"batch/specular", detail::kSpecularEffects, kBatch, detail::make_batch_specular},
+    {"batch/diffuse-textured", detail::kDiffuseTexturedEffects, kBatch, detail::make_batch_diffuse_textured},
+    {"batch/all", EffectSet::all(), kBatch, detail::make_batch_all},
+    {"reference/diffuse", detail::kDiffuseEffects, kBlock, detail::make_reference_diffuse},
+    {"reference/specular", detail::kSpecularEffects, kBlock, detail::make_reference_specular},
+    {"reference/diffuse-textured", detail::kDiffuseTexturedEffects, kBlock, detail::make_reference_diffuse_textured},
+    {"reference/all", EffectSet::all(), kBlock, detail::make_reference_all},
 }};
+
+/// Without SSE4 (or NEON) there are no packets worth the name.
+bool runs_here(const Kernel& k) { return !k.name.starts_with("batch/") || simd::target() != "none"; }
 
 }  // namespace
 
@@ -21,7 +35,7 @@ std::span<const Kernel> kernels() noexcept { return kKernels; }
 
 const Kernel& choose_kernel(EffectSet effects) noexcept {
     for (const Kernel& k : kKernels)
-        if (k.effects.contains(effects)) return k;
+        if (k.effects.contains(effects) && runs_here(k)) return k;
     return kKernels.back();
 }
 
@@ -29,6 +43,7 @@ const Kernel& find_kernel(std::string_view name, EffectSet needed) {
     std::string known;
     for (const Kernel& k : kKernels) {
         if (k.name == name) {
+            if (!runs_here(k)) throw Error("kernel '" + std::string(name) + "' needs SSE4 or better, which this CPU lacks");
             if (k.effects.contains(needed)) return k;
             std::string missing;
             for (const std::string& e : EffectSet(needed.bits & ~k.effects.bits).names()) missing += (missing.empty() ? "" : ", ") + e;

@@ -5,20 +5,19 @@
 #include "float_mode.h"
 
 #include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <memory>
 #include <mutex>
 
 namespace koksma {
 
 namespace {
-
-constexpr std::int32_t kTile = 8;           // pixels per side of a task
-constexpr std::uint64_t kTimedEvery = 16;   // blocks: the fills of one in so many are done again and timed
 
 bool earlier(const InvalidSample& a, const InvalidSample& b) noexcept {
     if (a.id.pixel.y != b.id.pixel.y) return a.id.pixel.y < b.id.pixel.y;
@@ -28,19 +27,9 @@ bool earlier(const InvalidSample& a, const InvalidSample& b) noexcept {
 
 /// What the tiles of one render share.
 struct Job {
-    const Scene& scene;
-    const RenderPlan& plan;
-    const SampleSource& source;
     const WorkItem& work;
     const Kernel& kernel;
     Film& film;
-};
-
-/// Time of the fills of some blocks, done a second time.
-struct SamplerClock {
-    std::uint64_t phase = 0;  ///< counts blocks; starts elsewhere in each tile
-    std::uint64_t paths = 0;
-    double seconds = 0.0;
 };
 
 void add_invalid(RenderStats& stats, const InvalidSample& sample) {
@@ -52,56 +41,84 @@ void add_invalid(RenderStats& stats, const InvalidSample& sample) {
     }
 }
 
-/// All samples of one pixel, in chunks aligned to multiples of Film::kChunk.
-void render_pixel(const Job& job, Pixel pixel, Draws& draws, SamplerClock& clock, RenderStats& stats) {
-    SampleId ids[Film::kChunk];
-    Vec3f radiance[Film::kChunk];
+/// Up to a kernel's batch of samples, in pieces that the film takes: samples of one pixel and one chunk.
+class Batch {
+public:
+    Batch(const Job& job, Tracer& tracer, RenderStats& stats) : job_(job), tracer_(tracer), stats_(stats) {
+        ids_.reserve(job.kernel.batch);
+        radiance_.resize(job.kernel.batch);
+    }
+    void add(Pixel pixel, std::uint64_t first, std::size_t count) {
+        if (ids_.size() + count > job_.kernel.batch) flush();
+        for (std::size_t i = 0; i < count; ++i) ids_.push_back({pixel, first + i});
+        pieces_.push_back(count);
+    }
+    void flush() {
+        if (ids_.empty()) return;
+        tracer_.trace(ids_, std::span(radiance_).first(ids_.size()));
+        std::size_t at = 0;
+        for (const std::size_t count : pieces_) {
+            const std::span<Vec3f> piece(&radiance_[at], count);
+            for (std::size_t i = 0; i < count; ++i)
+                if (InvalidSample invalid{InvalidSample::Kind::nan, ids_[at + i]}; is_invalid(piece[i], invalid.kind)) {
+                    add_invalid(stats_, invalid);
+                    piece[i] = Vec3f(0.0f);
+                }
+            job_.film.add(ids_[at].pixel, piece);
+            at += count;
+        }
+        stats_.paths += ids_.size();
+        ids_.clear();
+        pieces_.clear();
+    }
+
+private:
+    const Job& job_;
+    Tracer& tracer_;
+    RenderStats& stats_;
+    std::vector<SampleId> ids_;
+    std::vector<Vec3f> radiance_;
+    std::vector<std::size_t> pieces_;
+};
+
+/// All samples of a tile: chunk after chunk (aligned to multiples of Film::kChunk), for every pixel in turn.
+RenderStats render_tile(const Job& job, PixelRect tile, Tracer& tracer) {
+    const detail::FlushDenormals flush;
+    const double start = thread_seconds(), idle = tracer.stats().idle_seconds;
+    RenderStats stats;
+    Batch batch(job, tracer, stats);
     const std::uint64_t end = job.work.first + job.work.count;
     for (std::uint64_t at = job.work.first; at < end;) {
         const std::uint64_t chunk_end = std::min(end, (at / Film::kChunk + 1) * Film::kChunk);
-        const auto n = static_cast<std::size_t>(chunk_end - at);
-        for (std::size_t i = 0; i < n; ++i) ids[i] = {pixel, at + i};
-        const bool timed = clock.phase++ % kTimedEvery == 0;
-        draws.begin({ids, n}, timed);
-        job.kernel.trace(job.scene, job.plan.integrator, draws, {radiance, n}, stats.rays);
-        if (timed) {
-            clock.seconds += draws.seconds_of_fills();
-            clock.paths += n;
-        }
-        for (std::size_t i = 0; i < n; ++i)
-            if (InvalidSample invalid{InvalidSample::Kind::nan, ids[i]}; is_invalid(radiance[i], invalid.kind)) {
-                add_invalid(stats, invalid);
-                radiance[i] = Vec3f(0.0f);
-            }
-        job.film.add(pixel, {radiance, n});
-        stats.paths += n;
+        for (std::int32_t y = tile.y; y < tile.y + tile.height; ++y)
+            for (std::int32_t x = tile.x; x < tile.x + tile.width; ++x) batch.add({x, y}, at, static_cast<std::size_t>(chunk_end - at));
         at = chunk_end;
     }
+    batch.flush();
+    stats.cpu_seconds = thread_seconds() - start - (tracer.stats().idle_seconds - idle);
+    return stats;
 }
 
-RenderStats render_tile(const Job& job, PixelRect tile) {
-    const detail::FlushDenormals flush;
-    const double start = thread_seconds();
-    RenderStats stats;
-    Draws draws(job.plan, job.source);
-    SamplerClock clock{static_cast<std::uint64_t>(tile.x + 3 * tile.y) / kTile, 0, 0.0};
-    for (std::int32_t y = tile.y; y < tile.y + tile.height; ++y)
-        for (std::int32_t x = tile.x; x < tile.x + tile.width; ++x) render_pixel(job, {x, y}, draws, clock, stats);
-    if (clock.paths > 0) stats.sampler_seconds = clock.seconds * static_cast<double>(stats.paths) / static_cast<double>(clock.paths);
-    stats.tail_numbers = draws.tail_numbers;
-    stats.cpu_seconds = thread_seconds() - start - clock.seconds;  // the second time is not rendering
-    return stats;
+/// Side of a tile: enough pixels for the kernel's batch.
+std::int32_t tile_side(const Kernel& kernel, std::uint64_t count) {
+    std::int32_t side = 8;
+    while (side < 64 && static_cast<std::uint64_t>(side) * side * std::min<std::uint64_t>(count, Film::kChunk) < kernel.batch) side *= 2;
+    return side;
 }
 
 void merge(RenderStats& into, const RenderStats& from) {
     into.cpu_seconds += from.cpu_seconds;
-    into.sampler_seconds += from.sampler_seconds;
     into.paths += from.paths;
+    into.invalid_samples += from.invalid_samples;
+    into.invalid.insert(into.invalid.end(), from.invalid.begin(), from.invalid.end());
+}
+
+void merge(TraceStats& into, const TraceStats& from) {
     into.rays.closest += from.rays.closest;
     into.rays.shadow += from.rays.shadow;
     into.tail_numbers += from.tail_numbers;
-    into.invalid_samples += from.invalid_samples;
-    into.invalid.insert(into.invalid.end(), from.invalid.begin(), from.invalid.end());
+    into.sampler_seconds += from.sampler_seconds;
+    into.timed_paths += from.timed_paths;
 }
 
 }  // namespace
@@ -114,9 +131,13 @@ RenderResult render(const Scene& scene, const RenderPlan& plan, const SampleSour
     const Kernel& kernel = options.kernel != nullptr ? *options.kernel : choose_kernel(plan.effects);
     if (!kernel.effects.contains(plan.effects)) throw Error("kernel '" + std::string(kernel.name) + "' lacks an effect of the scene");
     RenderResult result{Film(work.rect), {}};
-    const Job job{scene, plan, source, work, kernel, result.film};
-    const std::int32_t columns = (work.rect.width + kTile - 1) / kTile, rows = (work.rect.height + kTile - 1) / kTile;
+    const Job job{work, kernel, result.film};
+    const std::int32_t side = tile_side(kernel, work.count);
+    const std::int32_t columns = (work.rect.width + side - 1) / side, rows = (work.rect.height + side - 1) / side;
     std::vector<RenderStats> tiles(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
+
+    const TraceJob trace_job{scene, plan, source};
+    tbb::enumerable_thread_specific<std::unique_ptr<Tracer>> tracers([&] { return kernel.make(trace_job); });
 
     std::mutex progress_mutex;
     std::size_t done = 0;
@@ -124,9 +145,9 @@ RenderResult render(const Scene& scene, const RenderPlan& plan, const SampleSour
     const auto run_tile = [&](std::size_t i) {
         if (options.stop.stop_requested()) return;
         const auto column = static_cast<std::int32_t>(i % static_cast<std::size_t>(columns)), row = static_cast<std::int32_t>(i / static_cast<std::size_t>(columns));
-        const PixelRect tile{work.rect.x + column * kTile, work.rect.y + row * kTile, std::min(kTile, work.rect.width - column * kTile),
-                             std::min(kTile, work.rect.height - row * kTile)};
-        tiles[i] = render_tile(job, tile);
+        const PixelRect tile{work.rect.x + column * side, work.rect.y + row * side, std::min(side, work.rect.width - column * side),
+                             std::min(side, work.rect.height - row * side)};
+        tiles[i] = render_tile(job, tile, *tracers.local());
         if (options.progress) {
             const std::lock_guard lock(progress_mutex);
             options.progress(static_cast<double>(++done) / static_cast<double>(tiles.size()));
@@ -140,6 +161,12 @@ RenderResult render(const Scene& scene, const RenderPlan& plan, const SampleSour
     });
     result.stats.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     for (const RenderStats& t : tiles) merge(result.stats, t);
+    TraceStats traced;
+    for (const std::unique_ptr<Tracer>& t : tracers) merge(traced, t->stats());
+    result.stats.rays = traced.rays;
+    result.stats.tail_numbers = traced.tail_numbers;
+    if (traced.timed_paths > 0)
+        result.stats.sampler_seconds = traced.sampler_seconds * static_cast<double>(result.stats.paths) / static_cast<double>(traced.timed_paths);
     std::sort(result.stats.invalid.begin(), result.stats.invalid.end(), earlier);
     if (result.stats.invalid.size() > RenderStats::kMaxLocated) result.stats.invalid.resize(RenderStats::kMaxLocated);
     result.stats.kernel = kernel.name;

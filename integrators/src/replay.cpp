@@ -1,4 +1,5 @@
-#include <koksma/integrators/kernel.h>
+#include <koksma/film/film.h>
+#include <koksma/integrators/path.h>
 #include <koksma/integrators/replay.h>
 
 #include "float_mode.h"
@@ -21,6 +22,8 @@ public:
     void camera(const Ray& ray) {
         line("camera      origin {} direction {} t in [{:.9g}, {:.9g}]", text(ray.o), text(ray.d), ray.t_near, ray.t_far);
     }
+    void met(const Ray&, Hit) {}
+    void shadow(const Ray&, bool) {}
     void vertex(const Surface& s, Hit hit, Vec3f wo, Vec3f beta) {
         const Shape& shape = scene_.description.shapes[hit.geometry];
         line("vertex {:<4} geometry {} ({}) primitive {}", vertex_++, hit.geometry, shape.where.text(), hit.primitive);

@@ -24,9 +24,9 @@ TEST_CASE("E4: a sample stays in its pixel", "[hard]") {
     d.camera.fov_x_degrees = 90;
     const Scene scene = compile(d);
     for (const std::int32_t px : {0, 1, 255, 1023, 4095, 16383}) {
-        const Ray low = camera_ray<EffectSet{}>(scene, {px, 0}, {0.0f, 0.5f}, {0.0f, 0.0f});
-        const Ray high = camera_ray<EffectSet{}>(scene, {px, 0}, {kOneMinusUlp, 0.5f}, {0.0f, 0.0f});
-        const auto column = [](const Ray& r) { return (1.0 - double{r.d.x} / r.d.z) * 0.5 * 16384; };
+        const auto low = camera_ray<float>(scene.camera, film_point(scene.camera, px, 0, {0.0f, 0.5f}), {0.0f, 0.0f});
+        const auto high = camera_ray<float>(scene.camera, film_point(scene.camera, px, 0, {kOneMinusUlp, 0.5f}), {0.0f, 0.0f});
+        const auto column = [](const auto& r) { return (1.0 - double{r.d.x} / r.d.z) * 0.5 * 16384; };
         INFO("pixel " << px << " from " << column(low) << " to " << column(high));
         // The direction is in float: 2^-23 of the half width of 8192 pixels.
         CHECK(column(low) >= px - 2e-3);

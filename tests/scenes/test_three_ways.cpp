@@ -96,7 +96,8 @@ SceneDescription scene_of(const Case& c, Kind kind) {
 class Point {
 public:
     explicit Point(const Scene& scene) : scene_(scene) {
-        const Ray ray = camera_ray<kAll>(scene, {0, 0}, {0.5f, 0.5f}, {0.5f, 0.5f});
+        const auto c = camera_ray<float>(scene.camera, film_point(scene.camera, 0, 0, {0.5f, 0.5f}), {0.5f, 0.5f});
+        const Ray ray{c.o, c.d, c.t_near, c.t_far};
         surface_ = surface_at<kAll>(scene, ray, scene.accelerator.intersect(ray));
         local_ = bsdf_at<kAll>(scene, surface_, -ray.d);
         wo_ = local_.frame.to_local(-ray.d);

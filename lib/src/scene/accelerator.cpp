@@ -5,6 +5,7 @@
 
 #include "embree.h"
 
+#include <cstddef>
 #include <deque>
 #include <string>
 #include <variant>
@@ -92,6 +93,38 @@ RTCRay embree_ray(const Ray& ray) noexcept {
     r.mask = ~0u;
     return r;
 }
+
+template <int N>
+struct Packet;
+template <>
+struct Packet<4> {
+    using RayHit = RTCRayHit4;
+    using Ray = RTCRay4;
+};
+template <>
+struct Packet<8> {
+    using RayHit = RTCRayHit8;
+    using Ray = RTCRay8;
+};
+template <>
+struct Packet<16> {
+    using RayHit = RTCRayHit16;
+    using Ray = RTCRay16;
+};
+template <int N>
+constexpr bool same_layout() {
+    using Own = RayPacket<N>;
+    using RayHit = typename Packet<N>::RayHit;
+    using Ray = typename Packet<N>::Ray;
+    using Hits = decltype(RayHit::hit);
+    constexpr std::size_t hit = offsetof(RayHit, hit);
+    return sizeof(RayHit) <= sizeof(Own) && alignof(RayHit) <= alignof(Own) && offsetof(RayHit, ray) == 0 &&
+           offsetof(Ray, org_x) == offsetof(Own, o_x) && offsetof(Ray, tnear) == offsetof(Own, t_near) && offsetof(Ray, dir_x) == offsetof(Own, d_x) &&
+           offsetof(Ray, time) == offsetof(Own, time) && offsetof(Ray, tfar) == offsetof(Own, t_far) && offsetof(Ray, mask) == offsetof(Own, mask) &&
+           offsetof(Ray, flags) == offsetof(Own, flags) && hit + offsetof(Hits, primID) == offsetof(Own, primitive) &&
+           hit + offsetof(Hits, geomID) == offsetof(Own, geometry) && hit + offsetof(Hits, instID) == offsetof(Own, instance);
+}
+static_assert(same_layout<4>() && same_layout<8>() && same_layout<16>(), "RayPacket must be laid out as this version of Embree wants it");
 
 }  // namespace
 
@@ -182,6 +215,21 @@ bool Accelerator::occluded(const Ray& ray) const noexcept {
     embree::occluded1(impl_->scene, r);
     return r.tfar < 0.0f;
 }
+
+template <int N>
+void Accelerator::intersect(RayPacket<N>& rays, const std::int32_t* valid, Coherence coherence) const noexcept {
+    embree::intersect(valid, impl_->scene, reinterpret_cast<typename Packet<N>::RayHit&>(rays), embree::IntersectQuery(coherence == Coherence::coherent));
+}
+template <int N>
+void Accelerator::occluded(RayPacket<N>& rays, const std::int32_t* valid, Coherence coherence) const noexcept {
+    embree::occluded(valid, impl_->scene, reinterpret_cast<typename Packet<N>::Ray&>(rays), embree::OccludedQuery(coherence == Coherence::coherent));
+}
+template void Accelerator::intersect(RayPacket<4>&, const std::int32_t*, Coherence) const noexcept;
+template void Accelerator::intersect(RayPacket<8>&, const std::int32_t*, Coherence) const noexcept;
+template void Accelerator::intersect(RayPacket<16>&, const std::int32_t*, Coherence) const noexcept;
+template void Accelerator::occluded(RayPacket<4>&, const std::int32_t*, Coherence) const noexcept;
+template void Accelerator::occluded(RayPacket<8>&, const std::int32_t*, Coherence) const noexcept;
+template void Accelerator::occluded(RayPacket<16>&, const std::int32_t*, Coherence) const noexcept;
 
 const char* Accelerator::version() noexcept { return "Embree " RTC_VERSION_STRING; }
 

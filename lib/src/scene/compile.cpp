@@ -21,6 +21,8 @@ CompiledCamera compile_camera(const Camera& c, const FilmSettings& film) {
     }
     out.half_width = std::tan(c.fov_x_degrees * (std::acos(-1.0) / 360.0));
     out.half_height = out.half_width * film.height / film.width;
+    out.pixel_width = 1.0 / film.width;
+    out.pixel_height = 1.0 / film.height;
     out.offset_x = c.principal_point_offset.x;
     out.offset_y = c.principal_point_offset.y;
     out.near_clip = static_cast<float>(c.near_clip);

@@ -1,31 +1,32 @@
 #pragma once
-// One kernel body, compiled for a few sets of effects; the smallest one that contains what a scene calls for is run.
+// The kernels: one reference body and one batch body, each compiled for a few sets of effects; the smallest one that contains
+// what a scene calls for is run.
 
-#include <koksma/film/film.h>
-#include <koksma/integrators/draws.h>
-#include <koksma/integrators/path.h>
+#include <koksma/integrators/tracer.h>
 
+#include <cstddef>
+#include <memory>
 #include <span>
-#include <string>
 #include <string_view>
 
 namespace koksma {
 
 /// A compiled variant. All admissible variants give the same bytes: the layout follows the scene, not the kernel.
 struct Kernel {
-    std::string_view name;  ///< "reference/diffuse"
+    std::string_view name;  ///< "batch/diffuse": whole pixels in packets; "reference/diffuse": one ray at a time
     EffectSet effects;
-    /// Traces the samples of the block that `draws` has begun. @param radiance  one value per sample
-    void (*trace)(const Scene& scene, const IntegratorSettings& settings, Draws& draws, std::span<Vec3f> radiance, RayCounts& rays) noexcept;
+    std::size_t batch;      ///< how many samples it wants at once
+    /// A null pointer where this CPU lacks what the variant needs.
+    std::unique_ptr<Tracer> (*make)(const TraceJob& job);
 };
 
-/// All variants, smallest first; the last one has every effect.
+/// All variants: batch kernels, then reference kernels, each smallest first; the last of each has every effect.
 [[nodiscard]] std::span<const Kernel> kernels() noexcept;
 
-/// The first variant that contains the effects.
+/// The first variant that contains the effects and runs on this CPU.
 [[nodiscard]] const Kernel& choose_kernel(EffectSet effects) noexcept;
 
-/// A variant by name. @throws Error naming all, or when it lacks an effect of the scene
+/// A variant by name. @throws Error naming all, or when it lacks an effect of the scene or the CPU lacks what it needs
 [[nodiscard]] const Kernel& find_kernel(std::string_view name, EffectSet needed);
 
 }  // namespace koksma

@@ -1,8 +1,8 @@
 #pragma once
 // The reference path kernel: one ray at a time, in the order in which a lecture explains it.
 
-#include <koksma/integrators/camera_ray.h>
 #include <koksma/integrators/draws.h>
+#include <koksma/integrators/tracer.h>
 #include <koksma/scene/light_sampling.h>
 
 #include <cmath>
@@ -10,14 +10,11 @@
 
 namespace koksma {
 
-/// Rays that a kernel traced.
-struct RayCounts {
-    std::uint64_t closest = 0, shadow = 0;
-};
-
 /// Watches nothing, at no cost. An observer with the same members sees every step of a path (koksma replay).
 struct NoObserver {
     void camera(const Ray&) noexcept {}
+    void met(const Ray&, Hit) noexcept {}
+    void shadow(const Ray&, bool) noexcept {}
     void escaped(Vec3f, Vec3f, float) noexcept {}
     void vertex(const Surface&, Hit, Vec3f, Vec3f) noexcept {}
     void emission(Vec3f, float) noexcept {}
@@ -52,7 +49,9 @@ template <EffectSet kEffects, class Observer>
 
     Vec2f u_lens;
     if constexpr (kEffects.has(Effect::lens)) u_lens = draws.lens();
-    Ray ray = camera_ray<kEffects>(scene, draws.id().pixel, draws.film(), u_lens);
+    const Pixel pixel = draws.id().pixel;
+    const auto from_camera = camera_ray<float>(scene.camera, film_point(scene.camera, pixel.x, pixel.y, draws.film()), u_lens);
+    Ray ray{from_camera.o, from_camera.d, from_camera.t_near, from_camera.t_far};
     observer.camera(ray);
     if (settings.max_depth == 0) return radiance;
 
@@ -66,6 +65,7 @@ template <EffectSet kEffects, class Observer>
         if (!is_traceable(ray.o, ray.d)) return kInvalid;
         ++rays.closest;
         const Hit hit = scene.accelerator.intersect(ray);
+        observer.met(ray, hit);
         if (!hit.valid()) {
             if constexpr (kEffects.has(Effect::environment)) {
                 if (scene.environment_light >= 0 && !(depth == 0 && settings.hide_emitters)) {
@@ -130,6 +130,7 @@ template <EffectSet kEffects, class Observer>
                         if (!is_traceable(shadow.o, shadow.d)) return kInvalid;
                         ++rays.shadow;
                         const bool visible = !scene.accelerator.occluded(shadow);
+                        observer.shadow(shadow, visible);
                         if (visible) radiance += contribution;
                         observer.direct_light(index, light, contribution, weight, visible);
                     }

@@ -28,7 +28,7 @@ struct RenderOptions {
 struct RenderStats {
     double wall_seconds = 0.0;        ///< of rendering alone
     double cpu_seconds = 0.0;         ///< sum over threads of their CPU time in rendering
-    double sampler_seconds = 0.0;     ///< CPU time in the sampler, estimated from every 16th block
+    double sampler_seconds = 0.0;     ///< CPU time in the sampler, estimated from a part of the paths
     std::uint64_t paths = 0;
     RayCounts rays;
     std::uint64_t tail_numbers = 0;   ///< drawn beyond the layout

@@ -36,6 +36,11 @@ struct Vec3 {
     constexpr Vec3() = default;
     constexpr Vec3(Real x_, Real y_, Real z_) : x(x_), y(y_), z(z_) {}
     constexpr explicit Vec3(Real s) : x(s), y(s), z(s) {}
+    /// The same vector in every lane. @param v  three floats
+    template <class V>
+    [[nodiscard]] static constexpr Vec3 splat(const V& v) {
+        return {Real(v.x), Real(v.y), Real(v.z)};
+    }
     constexpr Vec3(const glm::vec3& v) requires std::same_as<Real, float> : x(v.x), y(v.y), z(v.z) {}
     constexpr operator glm::vec3() const requires std::same_as<Real, float> { return {x, y, z}; }
 

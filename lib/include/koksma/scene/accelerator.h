@@ -12,6 +12,18 @@
 
 namespace koksma {
 
+/// N rays side by side (4, 8 or 16), and what they met. Laid out as Embree's own packets, so that nothing is copied.
+template <int N>
+struct alignas(4 * N) RayPacket {
+    float o_x[N], o_y[N], o_z[N], t_near[N], d_x[N], d_y[N], d_z[N], time[N], t_far[N];
+    std::uint32_t mask[N], id[N], flags[N];
+    float reserved[5][N];
+    std::uint32_t primitive[N], geometry[N], instance[2][N];  ///< geometry: Hit::kNone where nothing was met
+};
+
+/// How alike the rays of a packet are. `coherent` for rays from one point through neighbouring pixels; it is dear elsewhere.
+enum class Coherence : std::uint8_t { incoherent, coherent };
+
 /// A robust Embree scene (watertight at edges, no leaks). Geometries get the ids 0, 1, 2, ... in the order of adding.
 /// Thread-safe once committed. Rays must be finite with a direction that is not zero: callers check.
 class Accelerator {
@@ -31,6 +43,13 @@ public:
     [[nodiscard]] Hit intersect(const Ray& ray) const noexcept;
     /// True if anything lies between t_near and t_far.
     [[nodiscard]] bool occluded(const Ray& ray) const noexcept;
+    /// The same for packets of 4, 8 or 16 rays. Rays with valid[i] == 0 are left alone, the others (-1) answered as single ones.
+    /// Sets geometry (kNone first, by the caller) and primitive.
+    template <int N>
+    void intersect(RayPacket<N>& rays, const std::int32_t* valid, Coherence coherence) const noexcept;
+    /// Sets t_far to -infinity where something lies in between. Ids need not be set.
+    template <int N>
+    void occluded(RayPacket<N>& rays, const std::int32_t* valid, Coherence coherence) const noexcept;
     /// "Embree 3.13.5"
     [[nodiscard]] static const char* version() noexcept;
 

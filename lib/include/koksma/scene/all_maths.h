@@ -8,3 +8,4 @@
 #include <koksma/scene/ray_offset.h>
 #include <koksma/scene/triangle.h>
 #include <koksma/scene/light_maths.h>
+#include <koksma/scene/camera.h>

@@ -4,6 +4,7 @@
 #include <koksma/plan/effect.h>
 #include <koksma/scene/accelerator.h>
 #include <koksma/scene/bsdf/bsdf.h>
+#include <koksma/scene/camera.h>
 #include <koksma/scene/description.h>
 #include <koksma/scene/distribution.h>
 #include <koksma/scene/environment_map.h>
@@ -42,7 +43,7 @@ struct GeometryRecord {
     std::int32_t light = -1;   ///< index into Scene::lights
 };
 
-enum class LightKind : std::uint8_t { mesh, parallelogram, sphere, disk, point, environment };
+enum class LightKind : std::int32_t { mesh, parallelogram, sphere, disk, point, environment };
 
 struct Light {
     LightKind kind = LightKind::point;
@@ -51,15 +52,6 @@ struct Light {
     Vec3f corner, edge_u, edge_v;  ///< parallelogram; `corner` is also the position of a point light
     float area = 0.0f;             ///< m^2
     DiscreteDistribution triangles;  ///< of a mesh, by area
-};
-
-/// Camera in the re-centred world: it sits at the origin.
-struct CompiledCamera {
-    Vec3f right, up, forward;        ///< unit; images of the camera's x, y, z
-    double half_width = 1.0, half_height = 1.0;  ///< of the film at distance 1
-    double offset_x = 0.0, offset_y = 0.0;
-    float near_clip = 1e-2f, far_clip = 1e4f;
-    float aperture_radius = 0.0f, focus_distance = 1.0f;
 };
 
 /// Everything that a kernel reads. Built by compile(); nothing changes it afterwards.

@@ -65,8 +65,6 @@ struct PackBase {
     friend HWY_INLINE Mask operator!=(Self a, Self b) { return hn::RebindMask(Tag<float>(), hn::Ne(a.raw, b.raw)); }
     friend HWY_INLINE Mask operator<(Self a, Self b) { return hn::RebindMask(Tag<float>(), hn::Lt(a.raw, b.raw)); }
     friend HWY_INLINE Mask operator>(Self a, Self b) { return hn::RebindMask(Tag<float>(), hn::Gt(a.raw, b.raw)); }
-    friend HWY_INLINE Mask operator<=(Self a, Self b) { return hn::RebindMask(Tag<float>(), hn::Le(a.raw, b.raw)); }
-    friend HWY_INLINE Mask operator>=(Self a, Self b) { return hn::RebindMask(Tag<float>(), hn::Ge(a.raw, b.raw)); }
     HWY_INLINE Self& operator+=(Self b) { return self() = self() + b; }
     HWY_INLINE Self& operator-=(Self b) { return self() = self() - b; }
     HWY_INLINE Self& operator*=(Self b) { return self() = self() * b; }
@@ -85,12 +83,16 @@ struct Float : PackBase<Float, float> {
     HWY_INLINE Float(Raw r) : PackBase{r} {}                         // NOLINT: a pack is its register,
     HWY_INLINE Float(float x) : PackBase{hn::Set(Tag<float>(), x)} {}  // NOLINT: and a number is a pack of equal lanes
     friend HWY_INLINE Float operator/(Float a, Float b) { return hn::Div(a.raw, b.raw); }
+    friend HWY_INLINE Mask operator<=(Float a, Float b) { return hn::Le(a.raw, b.raw); }
+    friend HWY_INLINE Mask operator>=(Float a, Float b) { return hn::Ge(a.raw, b.raw); }
     friend HWY_INLINE Float operator-(Float a) { return hn::Neg(a.raw); }
 };
 
 /// 32-bit integers, signed or not; arithmetic wraps.
 template <class Self, class T>
 struct IntegerBase : PackBase<Self, T> {
+    friend HWY_INLINE Mask operator<=(Self a, Self b) { return !(a > b); }
+    friend HWY_INLINE Mask operator>=(Self a, Self b) { return !(a < b); }
     friend HWY_INLINE Self operator&(Self a, Self b) { return hn::And(a.raw, b.raw); }
     friend HWY_INLINE Self operator|(Self a, Self b) { return hn::Or(a.raw, b.raw); }
     friend HWY_INLINE Self operator^(Self a, Self b) { return hn::Xor(a.raw, b.raw); }

@@ -1,0 +1,16 @@
+#pragma once
+// What the batch kernel's sources see before they are compiled for each instruction set.
+
+#include <koksma/integrators/path.h>
+#include <koksma/integrators/thread_clock.h>
+#include <koksma/scene/light_sampling.h>
+
+#include "batch/batch_state.h"
+#include "kernel_sets.h"
+
+#include <bit>
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#define KOKSMA_SHARED_MATHS <koksma/scene/all_maths.h>

@@ -1,0 +1,356 @@
+// The batch kernel: the same estimator as trace_path (path.h), for thousands of paths at a time. All paths take a bounce
+// together: rays are traced in packets, a packet's hits are shaded while they are in the cache, shadow rays wait in a queue
+// of their own until the bounce is done. Paths that end leave the queue. Each path's sums are made in the order of the
+// reference kernel, by the same formulas, so the bytes are the same.
+
+// In the order in which they build on each other.
+#include "pack_access.h"
+#include "surface_pack.h"
+#include "light_pack.h"
+#include "batch_numbers.h"
+
+KOKSMA_MATHS_BEGIN
+
+template <EffectSet kEffects>
+class BatchTracer final : public Tracer {
+    static constexpr bool kSmooth = kEffects.has(Effect::diffuse) || kEffects.has(Effect::glossy);
+    static constexpr bool kExtendedLights = kEffects.has(Effect::area_light) || kEffects.has(Effect::environment);
+    static constexpr bool kDelta = kEffects.has(Effect::specular) || kEffects.has(Effect::dielectric);
+    static constexpr std::size_t kPack = static_cast<std::size_t>(kLanes);
+
+public:
+    explicit BatchTracer(const TraceJob& job)
+        : scene_(job.scene), settings_(job.plan.integrator), numbers_(job, stats_), paths_(std::make_unique<detail::PathQueue>()),
+          shadows_(std::make_unique<detail::ShadowQueue>()) {
+        for (std::uint32_t& m : packet_.mask) m = ~0u;
+    }
+
+    void trace(std::span<const SampleId> ids, std::span<Vec3f> radiance, std::span<std::uint64_t> hashes) noexcept override {
+        radiance_ = radiance;
+        hashes_ = hashes;
+        for (Vec3f& l : radiance_) l = Vec3f(0.0f);
+        for (std::uint64_t& h : hashes_) h = 0;
+        numbers_.begin_batch();
+        if (numbers_.timed()) stats_.timed_paths += ids.size();
+        if (settings_.max_depth == 0) return;
+        start_paths(ids);
+        alive_ = ids.size();
+        for (depth_ = 0; alive_ > 0; ++depth_) {
+            last_vertex_ = settings_.max_depth >= 0 && depth_ + 1 >= settings_.max_depth;
+            if (!last_vertex_) numbers_.fill_bounce(static_cast<std::size_t>(depth_), {paths_->id, alive_});
+            const std::size_t count = alive_;
+            alive_ = waiting_ = 0;
+            for (std::size_t at = 0; at < count; at += kPack) bounce(at, Mask::first(count - at));
+            trace_shadow_rays();
+        }
+    }
+
+private:
+    /// Camera rays.
+    void start_paths(std::span<const SampleId> ids) {
+        detail::PathQueue& q = *paths_;
+        numbers_.fill_camera(ids);
+        for (std::size_t at = 0; at < ids.size(); at += kPack) {
+            const Vec2<Float> u = numbers_.film(at);
+            NumberLanes x(u.x), y(u.y);
+            for (std::size_t i = 0; i < kPack && at + i < ids.size(); ++i) {
+                const SampleId& id = ids[at + i];
+                const Vec2f film = film_point(scene_.camera, id.pixel.x, id.pixel.y, {x.x[i], y.x[i]});
+                x.x[i] = film.x;
+                y.x[i] = film.y;
+                q.id[at + i] = id;
+            }
+            Vec2<Float> u_lens{};
+            if constexpr (kEffects.has(Effect::lens)) u_lens = numbers_.lens(at);
+            const CameraRayOf<Float> ray = camera_ray(scene_.camera, Vec2<Float>{x.pack(), y.pack()}, u_lens);
+            store(ray.o, q.o, at);
+            store(ray.d, q.d, at);
+            ray.t_near.store(q.t_near + at);
+            ray.t_far.store(q.t_far + at);
+            store(Vec3<Float>(Float(1.0f)), q.beta, at);
+            Float(1.0f).store(q.eta_scale + at);
+            Float(0.0f).store(q.pdf + at);
+            Int32(-1).store(q.delta + at);
+            Int32(0).store(q.lossless + at);
+            store(Vec3<Float>(Float(0.0f)), q.last_p, at);
+            iota(static_cast<std::int32_t>(at)).store(q.slot + at);
+        }
+    }
+
+    /// One pack of paths: from its ray to the next.
+    void bounce(std::size_t at, Mask active) {
+        detail::PathQueue& q = *paths_;
+        const Vec3<Float> o = load(q.o, at), d = load(q.d, at);
+        Vec3<Float> beta = load(q.beta, at);
+        Int32::load(q.slot + at).store(slots_);
+
+        // ---- where the rays go
+        active = only_traceable(active, o, d);
+        if (!any(active)) return;
+        Int32 geometry, primitive;
+        closest_hit(at, active, o, d, geometry, primitive);
+        const Mask hit = active & (geometry != Int32(-1));
+        if constexpr (kEffects.has(Effect::environment))
+            if (const Mask escaped = active & !hit; any(escaped)) add_environment(at, escaped, d, beta);
+        if (!any(hit)) return;
+        const SurfacePack surface = surface_pack<kEffects>(scene_, hit, o, d, geometry, primitive);
+        const Vec3<Float> wo = -d;
+
+        // ---- light that the surfaces themselves send out
+        if constexpr (kEffects.has(Effect::area_light))
+            if (const Mask shines = hit & (surface.light >= Int32(0)); any(shines)) add_emission(at, shines, surface, d, beta);
+        if (last_vertex_) return;
+
+        const LocalBsdfPack local = bsdf_pack<kEffects>(scene_, surface, hit, wo);
+        const Vec3<Float> wo_local = local.frame.to_local(wo);
+
+        // ---- light that arrives straight from a light source
+        Mask alive = hit;
+        if constexpr (kSmooth)
+            if (const Mask smooth = hit & has_smooth_lobe(local.bsdf); scene_.light_choice.total() > 0.0 && any(smooth))
+                alive = direct_light(at, alive, smooth, surface, local, wo_local, beta);
+
+        // ---- where the paths go on
+        Float u_lobe{};
+        if constexpr (kEffects.has(Effect::dielectric))
+            if (const Mask m = alive & is(local.bsdf, BsdfKind::dielectric); any(m)) u_lobe = numbers_.get_1d(at, m, SlotRole::lobe, &BounceSlots::lobe);
+        Vec2<Float> u_direction{};
+        if constexpr (kSmooth)
+            if (const Mask m = alive & has_smooth_lobe(local.bsdf); any(m)) u_direction = numbers_.get_2d(at, m, SlotRole::direction, &BounceSlots::direction);
+        const BsdfSampleOf<Float> next = sample_bsdf<kEffects>(local.bsdf, wo_local, u_lobe, u_direction);
+        alive = alive & !(next.pdf_w <= Float(0.0f));
+        beta *= next.weight;
+        const Float total = sum(beta);
+        if (const Mask odd = alive & (!(total > Float(0.0f)) | !(next.pdf_w > Float(0.0f))); any(odd)) {
+            invalidate(odd & !(total <= Float(0.0f)));  // not a number: to be counted, not to end in silence
+            alive = alive & !odd;
+        }
+        Float eta_scale{1.0f};
+        if constexpr (kEffects.has(Effect::dielectric)) {
+            eta_scale = Float::load(q.eta_scale + at);
+            eta_scale = eta_scale * (next.eta * next.eta);
+        }
+        const Vec3<Float> wi = local.frame.to_world(next.wi);
+        const Vec3<Float> origin = offset_origin(surface.p, surface.p_error, surface.ng, wi);
+
+        // ---- Russian roulette
+        Int32 lossless{};
+        if constexpr (kEffects.has(Effect::roulette))
+            if (depth_ + 1 >= settings_.rr_depth) alive = roulette(at, alive, beta, eta_scale, lossless);
+        if (!any(alive)) return;
+
+        // ---- those that go on move to the front of the queue, behind all that has been read
+        const std::size_t to = alive_;
+        compress_store(origin, alive, q.o, to);
+        compress_store(wi, alive, q.d, to);
+        compress_store(beta, alive, q.beta, to);
+        next.pdf_w.compress_store(alive, q.pdf + to);
+        if constexpr (kEffects.has(Effect::area_light)) compress_store(surface.p, alive, q.last_p, to);
+        if constexpr (kEffects.has(Effect::dielectric)) eta_scale.compress_store(alive, q.eta_scale + to);
+        if constexpr (kEffects.has(Effect::roulette)) lossless.compress_store(alive, q.lossless + to);
+        if constexpr (kDelta)
+            select(next.delta, Int32(-1), Int32(0)).compress_store(alive, q.delta + to);
+        else
+            Int32(0).store_any(q.delta + to);
+        Int32::load(slots_).compress_store(alive, q.slot + to);
+        std::size_t free = to;
+        for_lanes(alive, [&](int i) { q.id[free++] = q.id[at + static_cast<std::size_t>(i)]; });
+        alive_ = free;
+    }
+
+    void closest_hit(std::size_t at, Mask active, const Vec3<Float>& o, const Vec3<Float>& d, Int32& geometry, Int32& primitive) {
+        o.x.store(packet_.o_x);
+        o.y.store(packet_.o_y);
+        o.z.store(packet_.o_z);
+        d.x.store(packet_.d_x);
+        d.y.store(packet_.d_y);
+        d.z.store(packet_.d_z);
+        const bool camera = depth_ == 0;
+        (camera ? Float::load(paths_->t_near + at) : Float(0.0f)).store(packet_.t_near);
+        (camera ? Float::load(paths_->t_far + at) : Float(kInfinity)).store(packet_.t_far);
+        UInt32(Hit::kNone).store(packet_.geometry);
+        select(active, Int32(-1), Int32(0)).store(valid_);
+        stats_.rays.closest += static_cast<std::uint64_t>(count(active));
+        scene_.accelerator.intersect(packet_, valid_, camera ? Coherence::coherent : Coherence::incoherent);
+        geometry = as_int(UInt32::load(packet_.geometry));
+        primitive = as_int(UInt32::load(packet_.primitive));
+        if (!hashes_.empty())
+            for_lanes(active, [&](int i) {
+                const std::uint32_t g = packet_.geometry[i];
+                const Hit met{g, g == Hit::kNone ? Hit::kNone : packet_.primitive[i]};
+                hash(i, (std::uint64_t{met.geometry} << 32) | met.primitive);
+            });
+    }
+
+    void add_environment(std::size_t at, Mask escaped, const Vec3<Float>& d, const Vec3<Float>& beta) {
+        if (scene_.environment_light < 0 || (depth_ == 0 && settings_.hide_emitters)) return;
+        const VectorLanes directions(d), betas(beta);
+        for_lanes(escaped, [&](int i) {
+            const std::size_t path = at + static_cast<std::size_t>(i);
+            const Vec3f le = environment_radiance<kEffects>(scene_, directions[i]);
+            float weight = 1.0f;
+            if (paths_->delta[path] == 0)
+                weight = koksma::power_heuristic(paths_->pdf[path], environment_pdf<kEffects>(scene_, directions[i]) *
+                                                                        light_probability(static_cast<std::uint32_t>(scene_.environment_light)));
+            radiance(i) += betas[i] * le * weight;
+        });
+    }
+
+    void add_emission(std::size_t at, Mask shines, const SurfacePack& s, const Vec3<Float>& d, const Vec3<Float>& beta) {
+        if (depth_ == 0 && settings_.hide_emitters) return;
+        const VectorLanes p(s.p), ng(s.ng), n(s.n), directions(d), betas(beta);
+        const NumberLanes u(s.uv.x), v(s.uv.y);
+        alignas(4 * kLanes) IntLanes geometry, light;
+        s.geometry.store(geometry);
+        s.light.store(light);
+        for_lanes(shines, [&](int i) {
+            const std::size_t path = at + static_cast<std::size_t>(i);
+            const Vec3f wi = directions[i];
+            Surface surface{.p = p[i], .ng = ng[i], .n = n[i], .uv = {u.x[i], v.x[i]}, .geometry = static_cast<std::uint32_t>(geometry[i])};
+            const Vec3f le = emitted<kEffects>(scene_, surface, -wi);
+            if (!(koksma::max_component(le) > 0.0f)) return;
+            float weight = 1.0f;
+            if (paths_->delta[path] == 0) {
+                const auto index = static_cast<std::uint32_t>(light[i]);
+                const Vec3f last_p{paths_->last_p.x[path], paths_->last_p.y[path], paths_->last_p.z[path]};
+                weight = koksma::power_heuristic(paths_->pdf[path],
+                                                 light_pdf<kEffects>(scene_, scene_.lights[index], last_p, surface, wi) * light_probability(index));
+            }
+            radiance(i) += betas[i] * le * weight;
+        });
+    }
+
+    /// Queues the shadow rays of a pack. @return  the lanes of `alive` that stay valid
+    Mask direct_light(std::size_t at, Mask alive, Mask smooth, const SurfacePack& s, const LocalBsdfPack& local, const Vec3<Float>& wo_local,
+                      const Vec3<Float>& beta) {
+        Int32 index{};
+        Float probability{1.0f};
+        if constexpr (kEffects.has(Effect::light_choice)) {
+            const Float u = numbers_.get_1d(at, smooth, SlotRole::light_choice, &BounceSlots::light_choice);
+            if (scene_.lights.size() > 1) choose_lights(smooth, u, index, probability);
+        }
+        Vec2<Float> u_light{};
+        if constexpr (kExtendedLights) u_light = numbers_.get_2d(at, smooth, SlotRole::light_position, &BounceSlots::light_position);
+        const LightSamplePack light = sample_light_pack<kEffects>(scene_, smooth, index, s.p, u_light);
+        Mask lit = smooth & (light.pdf_w > Float(0.0f));
+        if (!any(lit)) return alive;
+        const BsdfValueOf<Float> value = eval_bsdf<kEffects>(local.bsdf, wo_local, local.frame.to_local(light.wi));
+        const Float pdf_light = light.pdf_w * probability;
+        const Float weight = select(light.delta, Float(1.0f), power_heuristic(pdf_light, value.pdf_w));
+        const Vec3<Float> contribution = beta * value.f_cos * light.radiance * (weight / pdf_light);
+        lit = lit & !(sum(contribution) <= Float(0.0f));  // a NaN goes on, to be counted
+        if (!any(lit)) return alive;
+        const Vec3<Float> o = offset_origin(s.p, s.p_error, s.ng, light.wi);
+        const Vec3<Float> d = select<Float>(light.at_infinity, light.wi, light.target - o);
+        if (const Mask odd = lit & !is_traceable(o, d); any(odd)) {
+            invalidate(odd);
+            alive = alive & !odd;
+            lit = lit & !odd;
+        }
+        detail::ShadowQueue& q = *shadows_;
+        compress_store(o, lit, q.o, waiting_);
+        compress_store(d, lit, q.d, waiting_);
+        compress_store(contribution, lit, q.contribution, waiting_);
+        select(light.at_infinity, Float(kInfinity), Float(1.0f)).compress_store(lit, q.t_far + waiting_);
+        waiting_ += Int32::load(slots_).compress_store(lit, q.slot + waiting_);
+        return alive;
+    }
+
+    void choose_lights(Mask smooth, Float u, Int32& index, Float& probability) {
+        const NumberLanes numbers(u);
+        NumberLanes probabilities(probability);
+        alignas(4 * kLanes) IntLanes chosen{};
+        for_lanes(smooth, [&](int i) {
+            const DiscreteSample choice = scene_.light_choice.sample(numbers.x[i]);
+            chosen[i] = static_cast<std::int32_t>(choice.index);
+            probabilities.x[i] = choice.probability;
+        });
+        index = Int32::load(chosen);
+        probability = probabilities.pack();
+    }
+
+    void trace_shadow_rays() {
+        const detail::ShadowQueue& q = *shadows_;
+        stats_.rays.shadow += waiting_;
+        for (std::size_t at = 0; at < waiting_; at += kPack) {
+            const Mask active = Mask::first(waiting_ - at);
+            Float::load(q.o.x + at).store(packet_.o_x);
+            Float::load(q.o.y + at).store(packet_.o_y);
+            Float::load(q.o.z + at).store(packet_.o_z);
+            Float::load(q.d.x + at).store(packet_.d_x);
+            Float::load(q.d.y + at).store(packet_.d_y);
+            Float::load(q.d.z + at).store(packet_.d_z);
+            Float(0.0f).store(packet_.t_near);
+            Float::load(q.t_far + at).store(packet_.t_far);
+            select(active, Int32(-1), Int32(0)).store(valid_);
+            scene_.accelerator.occluded(packet_, valid_, depth_ == 0 ? Coherence::coherent : Coherence::incoherent);
+            Int32::load(q.slot + at).store(slots_);
+            const Mask visible = active & !(Float::load(packet_.t_far) < Float(0.0f));
+            for_lanes(visible, [&](int i) {
+                const std::size_t ray = at + static_cast<std::size_t>(i);
+                radiance(i) += Vec3f{q.contribution.x[ray], q.contribution.y[ray], q.contribution.z[ray]};
+            });
+            if (!hashes_.empty()) {
+                const std::uint32_t seen = lane_bits(visible);
+                for_lanes(active, [&](int i) { hash(i, (seen >> i) & 1u); });
+            }
+        }
+    }
+
+    /// @return  the lanes that survive; beta is divided by their chance
+    Mask roulette(std::size_t at, Mask alive, Vec3<Float>& beta, Float eta_scale, Int32& lossless) {
+        Float survival = max_component(beta) * eta_scale;
+        lossless = select(survival < Float(1.0f), Int32(0), Int32::load(paths_->lossless + at) + Int32(1));
+        survival = select(lossless > Int32(kLosslessBounces), Float(0.9f), survival);
+        const Mask plays = alive & (survival < Float(1.0f));
+        if (!any(plays)) return alive;
+        const Float u = numbers_.get_1d(at, plays, SlotRole::roulette, &BounceSlots::roulette);
+        const Mask survives = plays & (u < survival);
+        assign<Float>(survives, beta, beta * (Float(1.0f) / survival));
+        return (alive & !plays) | survives;
+    }
+
+    /// Ends the paths that Embree may not see.
+    Mask only_traceable(Mask active, const Vec3<Float>& o, const Vec3<Float>& d) {
+        const Mask good = active & is_traceable(o, d);
+        if (const Mask bad = active & !good; any(bad)) invalidate(bad);
+        return good;
+    }
+    void invalidate(Mask lanes) {
+        constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+        for_lanes(lanes, [&](int i) { radiance(i) = {kNan, kNan, kNan}; });
+    }
+    [[nodiscard]] float light_probability(std::uint32_t light) const {
+        if constexpr (kEffects.has(Effect::light_choice)) return scene_.light_choice.probability(light);
+        return 1.0f;
+    }
+    [[nodiscard]] Vec3f& radiance(int lane) { return radiance_[static_cast<std::size_t>(slots_[lane])]; }
+    void hash(int lane, std::uint64_t what) {
+        std::uint64_t& h = hashes_[static_cast<std::size_t>(slots_[lane])];
+        h = path_hash(h, what);
+    }
+
+    const Scene& scene_;
+    const IntegratorSettings& settings_;
+    BatchNumbers numbers_;
+    std::unique_ptr<detail::PathQueue> paths_;
+    std::unique_ptr<detail::ShadowQueue> shadows_;
+    RayPacket<kLanes> packet_{};
+    alignas(4 * kLanes) IntLanes valid_{}, slots_{};
+    std::span<Vec3f> radiance_;
+    std::span<std::uint64_t> hashes_;
+    std::size_t alive_ = 0, waiting_ = 0;
+    std::int32_t depth_ = 0;
+    bool last_vertex_ = false;
+};
+
+template <EffectSet kEffects>
+std::unique_ptr<Tracer> make_batch_tracer([[maybe_unused]] const TraceJob& job) {
+#if HWY_TARGET == HWY_SCALAR || HWY_TARGET == HWY_EMU128
+    return nullptr;
+#else
+    return std::make_unique<BatchTracer<kEffects>>(job);
+#endif
+}
+
+KOKSMA_MATHS_END

@@ -1,0 +1,198 @@
+// Surface points and BSDFs of as many paths as a pack has lanes. Triangles in packs, other shapes one by one.
+
+KOKSMA_MATHS_BEGIN
+
+/// As koksma::Surface, with what its geometry says.
+struct SurfacePack {
+    Vec3<Float> p, p_error, ng, n, dpdu;
+    Vec2<Float> uv;
+    Int32 geometry, material, light;
+};
+
+static_assert(sizeof(GeometryRecord) == 16 && offsetof(GeometryRecord, kind) == 0 && offsetof(GeometryRecord, flip) == 1 &&
+              offsetof(GeometryRecord, has_normals) == 2 && offsetof(GeometryRecord, has_uvs) == 3 && std::endian::native == std::endian::little);
+
+/// One bit of the first word of a GeometryRecord, whose bytes are kind, flip, has_normals, has_uvs.
+template <int byte>
+[[nodiscard]] Mask flag(Int32 word) {
+    return (word & Int32(1 << (8 * byte))) != Int32(0);
+}
+
+struct TrianglePack {
+    Int32 index[3];
+    Vec3<Float> v0, v1, v2;
+};
+[[nodiscard]] inline TrianglePack gather_triangle(const Scene& scene, Int32 triangle) {
+    const std::int32_t* indices = reinterpret_cast<const std::int32_t*>(scene.triangles.data());
+    const Int32 at = triangle * Int32(3);
+    TrianglePack t;
+    for (int i = 0; i < 3; ++i) t.index[i] = gather(indices, at + Int32(i));
+    t.v0 = gather_vector(scene.positions.data(), 0, t.index[0]);
+    t.v1 = gather_vector(scene.positions.data(), 0, t.index[1]);
+    t.v2 = gather_vector(scene.positions.data(), 0, t.index[2]);
+    return t;
+}
+
+/// @param word  first word of the geometries' records
+template <EffectSet kEffects>
+[[nodiscard]] SurfacePack triangle_surface_pack(const Scene& scene, const TrianglePack& t, Int32 word, Mask active, Vec2<Float> b) {
+    const TrianglePointOf<Float> point = triangle_point(t.v0, t.v1, t.v2, b);
+    SurfacePack s{};
+    s.p = point.p;
+    s.p_error = point.p_error;
+    s.ng = s.n = point.ng;
+    if constexpr (kEffects.has(Effect::shading_normals))
+        if (const Mask m = active & flag<2>(word); any(m)) {
+            // Lanes without normals read entry 0, which is there when any mesh has normals.
+            const auto normal = [&](int i) { return gather_vector(scene.normals.data(), 0, select(m, t.index[i], Int32(0))); };
+            assign<Float>(m, s.n, interpolated_normal(normal(0), normal(1), normal(2), point.b0, b, s.ng));
+        }
+    if (const Mask m = flag<1>(word); any(m)) {
+        assign<Float>(m, s.ng, -s.ng);
+        assign<Float>(m, s.n, -s.n);
+    }
+    if constexpr (kEffects.has(Effect::texture) || kEffects.has(Effect::anisotropic)) {
+        s.uv = b;
+        if (const Mask m = active & flag<3>(word); any(m)) {
+            const auto uv = [&](int i) {
+                const Int32 index = select(m, t.index[i], Int32(0));
+                return Vec2<Float>{gather_float(scene.uvs.data(), 0, index), gather_float(scene.uvs.data(), 4, index)};
+            };
+            const Vec2<Float> uv0 = uv(0), uv1 = uv(1), uv2 = uv(2);
+            s.uv.x = select(m, uv0.x * point.b0 + uv1.x * b.x + uv2.x * b.y, s.uv.x);
+            s.uv.y = select(m, uv0.y * point.b0 + uv1.y * b.x + uv2.y * b.y, s.uv.y);
+            if constexpr (kEffects.has(Effect::anisotropic)) assign<Float>(m, s.dpdu, direction_of_u(t.v0, t.v1, t.v2, uv0, uv1, uv2));
+        }
+    }
+    return s;
+}
+
+/// Puts a point that was computed alone into its lane.
+struct SurfaceLanes {
+    VectorLanes p, p_error, ng, n, dpdu;
+    NumberLanes u, v;
+    explicit SurfaceLanes(const SurfacePack& s) : p(s.p), p_error(s.p_error), ng(s.ng), n(s.n), dpdu(s.dpdu), u(s.uv.x), v(s.uv.y) {}
+    void set(int lane, const Surface& s) {
+        p.set(lane, s.p);
+        p_error.set(lane, s.p_error);
+        ng.set(lane, s.ng);
+        n.set(lane, s.n);
+        dpdu.set(lane, s.dpdu);
+        u.x[lane] = s.uv.x;
+        v.x[lane] = s.uv.y;
+    }
+    void get(SurfacePack& s) const {
+        s.p = p.pack();
+        s.p_error = p_error.pack();
+        s.ng = ng.pack();
+        s.n = n.pack();
+        s.dpdu = dpdu.pack();
+        s.uv = {u.pack(), v.pack()};
+    }
+};
+
+/// @param active     lanes that met something
+/// @param geometry, primitive  of those lanes; anything in others
+template <EffectSet kEffects>
+[[nodiscard]] SurfacePack surface_pack(const Scene& scene, Mask active, Vec3<Float> o, Vec3<Float> d, Int32 geometry, Int32 primitive) {
+    const GeometryRecord* records = scene.geometries.data();
+    const Int32 g = select(active, geometry, Int32(0));
+    const Int32 word = gather_int(records, 0, g);
+    Mask meshes = active;
+    if constexpr (kEffects.has(Effect::analytic_shape)) meshes = active & ((word & Int32(0xff)) == Int32(static_cast<int>(GeometryKind::mesh)));
+    SurfacePack s{};
+    if (!kEffects.has(Effect::analytic_shape) || any(meshes)) {
+        const Int32 triangle = select(meshes, gather_int(records, offsetof(GeometryRecord, first), g) + primitive, Int32(0));
+        const TrianglePack t = gather_triangle(scene, triangle);
+        s = triangle_surface_pack<kEffects>(scene, t, word, meshes, barycentrics(t.v0, t.v1, t.v2, o, d));
+    }
+    if constexpr (kEffects.has(Effect::analytic_shape))
+        if (const Mask others = active & !meshes; any(others)) {
+            SurfaceLanes lanes(s);
+            const VectorLanes origins(o), directions(d);
+            alignas(4 * kLanes) IntLanes geometries;
+            g.store(geometries);
+            for_lanes(others, [&](int i) {
+                lanes.set(i, koksma::surface_at<kEffects>(scene, Ray{origins[i], directions[i]}, {static_cast<std::uint32_t>(geometries[i]), 0}));
+            });
+            lanes.get(s);
+        }
+    s.geometry = g;
+    s.material = gather_int(records, offsetof(GeometryRecord, material), g);
+    if constexpr (kEffects.has(Effect::area_light)) s.light = gather_int(records, offsetof(GeometryRecord, light), g);
+    return s;
+}
+
+/// The value of a texture, whose reference is a member of the records that an index selects.
+template <EffectSet kEffects, class Record>
+[[nodiscard]] Vec3<Float> texture_pack(const Scene& scene, const Record* records, std::size_t offset, Int32 index, Mask active, Vec2<Float> uv) {
+    Vec3<Float> value = gather_vector(records, offset + offsetof(TextureRef, constant), index);
+    if constexpr (kEffects.has(Effect::texture)) {
+        const Int32 texture = gather_int(records, offset + offsetof(TextureRef, index), index);
+        if (const Mask m = active & (texture >= Int32(0)); any(m)) {
+            VectorLanes lanes(value);
+            const NumberLanes u(uv.x), v(uv.y);
+            alignas(4 * kLanes) IntLanes textures;
+            texture.store(textures);
+            for_lanes(m, [&](int i) { lanes.set(i, lookup(scene.textures[static_cast<std::size_t>(textures[i])], {u.x[i], v.x[i]})); });
+            value = lanes.pack();
+        }
+    }
+    return value;
+}
+
+struct LocalBsdfPack {
+    BsdfOf<Float> bsdf;
+    FrameOf<Float> frame;
+};
+
+/// As koksma::bsdf_at.
+template <EffectSet kEffects>
+[[nodiscard]] LocalBsdfPack bsdf_pack(const Scene& scene, const SurfacePack& s, Mask active, Vec3<Float> wo) {
+    const MaterialSides* materials = scene.materials.data();
+    static_assert(sizeof(MaterialSides) == 12 && offsetof(MaterialSides, two_sided) == 8 && offsetof(MaterialSides, anisotropic) == 9);
+    LocalBsdfPack out{};
+    out.frame = FrameOf<Float>::from_normal(s.n);
+    Int32 side = gather_int(materials, offsetof(MaterialSides, front), s.material), flags{};
+    if constexpr (kEffects.has(Effect::two_sided) || kEffects.has(Effect::anisotropic))
+        flags = gather_int(materials, offsetof(MaterialSides, two_sided), s.material);
+    if constexpr (kEffects.has(Effect::anisotropic))
+        if (const Mask m = flag<1>(flags); any(m & active)) {
+            const FrameOf<Float> along = frame_along(s.n, s.dpdu);
+            assign<Float>(m, out.frame.s, along.s);
+            assign<Float>(m, out.frame.t, along.t);
+        }
+    if constexpr (kEffects.has(Effect::two_sided))
+        if (const Mask m = flag<0>(flags) & (dot(wo, s.n) < Float(0.0f)); any(m & active)) {
+            side = select(m, gather_int(materials, offsetof(MaterialSides, back), s.material), side);
+            assign<Float>(m, out.frame.n, -out.frame.n);
+            assign<Float>(m, out.frame.t, -out.frame.t);
+        }
+    const MaterialSide* sides = scene.sides.data();
+    static_assert(offsetof(MaterialSide, kind) == 0 && offsetof(MaterialSide, perfect) == 4 && offsetof(MaterialSide, ggx) == 5);
+    out.bsdf.kind = gather_int(sides, 0, side);
+    out.bsdf.reflectance = texture_pack<kEffects>(scene, sides, offsetof(MaterialSide, reflectance), side, active, s.uv);
+    if constexpr (kEffects.has(Effect::glossy) || kEffects.has(Effect::specular) || kEffects.has(Effect::dielectric)) {
+        if (all(out.bsdf.kind == Int32(static_cast<int>(BsdfKind::diffuse)) | !active)) return out;
+        const Int32 side_flags = gather_int(sides, offsetof(MaterialSide, perfect), side);
+        out.bsdf.perfect = flag<0>(side_flags);
+        out.bsdf.facets.ggx = flag<1>(side_flags);
+        out.bsdf.transmittance = gather_vector(sides, offsetof(MaterialSide, transmittance), side);
+        out.bsdf.eta = gather_vector(sides, offsetof(MaterialSide, eta), side);
+        out.bsdf.k = gather_vector(sides, offsetof(MaterialSide, k), side);
+    }
+    if constexpr (kEffects.has(Effect::glossy)) {
+        const Mask m = active & (out.bsdf.kind == Int32(static_cast<int>(BsdfKind::rough_conductor)));
+        const auto alpha = [&](std::size_t offset) {
+            const Float a = texture_pack<kEffects>(scene, sides, offset, side, m, s.uv).x;
+            return select(a > Float(1e-4f), a, Float(1e-4f));
+        };
+        if (any(m)) {
+            out.bsdf.facets.alpha_u = alpha(offsetof(MaterialSide, alpha_u));
+            out.bsdf.facets.alpha_v = alpha(offsetof(MaterialSide, alpha_v));
+        }
+    }
+    return out;
+}
+
+KOKSMA_MATHS_END

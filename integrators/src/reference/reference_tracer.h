@@ -1,0 +1,53 @@
+#pragma once
+// The reference kernel as a tracer: blocks of 64 samples, one path after the other.
+
+#include <koksma/integrators/path.h>
+
+#include "../kernel_sets.h"
+
+namespace koksma::detail {
+
+/// Watches what a path meets.
+struct HashObserver : NoObserver {
+    std::uint64_t hash = 0;
+    void met(const Ray&, Hit hit) noexcept { hash = path_hash(hash, (std::uint64_t{hit.geometry} << 32) | hit.primitive); }
+    void shadow(const Ray&, bool visible) noexcept { hash = path_hash(hash, visible); }
+};
+
+template <EffectSet kEffects>
+class ReferenceTracer final : public Tracer {
+public:
+    explicit ReferenceTracer(const TraceJob& job) : scene_(job.scene), settings_(job.plan.integrator), draws_(job.plan, job.source) {}
+
+    void trace(std::span<const SampleId> ids, std::span<Vec3f> radiance, std::span<std::uint64_t> hashes) noexcept override {
+        constexpr std::uint64_t kTimedEvery = 16;  // blocks: the fills of one in so many are done again and timed
+        const bool timed = block_++ % kTimedEvery == 0;
+        draws_.begin(ids, timed);
+        for (std::size_t i = 0; i < ids.size(); ++i) {
+            draws_.select(i);
+            if (hashes.empty()) {
+                NoObserver nobody;
+                radiance[i] = trace_path<kEffects>(scene_, settings_, draws_, stats_.rays, nobody);
+            } else {
+                HashObserver observer;
+                radiance[i] = trace_path<kEffects>(scene_, settings_, draws_, stats_.rays, observer);
+                hashes[i] = observer.hash;
+            }
+        }
+        if (timed) {
+            const double seconds = draws_.seconds_of_fills();
+            stats_.sampler_seconds += seconds;
+            stats_.idle_seconds += seconds;
+            stats_.timed_paths += ids.size();
+        }
+        stats_.tail_numbers = draws_.tail_numbers;
+    }
+
+private:
+    const Scene& scene_;
+    const IntegratorSettings& settings_;
+    Draws draws_;
+    std::uint64_t block_ = 0;
+};
+
+}  // namespace koksma::detail
