@@ -3,11 +3,22 @@
 // of their own until the bounce is done. Paths that end leave the queue. Each path's sums are made in the order of the
 // reference kernel, by the same formulas, so the bytes are the same.
 
+#if HWY_TARGET == HWY_SCALAR || HWY_TARGET == HWY_EMU128
+KOKSMA_MATHS_BEGIN
+template <EffectSet kEffects>
+std::unique_ptr<Tracer> make_batch_tracer(const TraceJob&) {
+    return nullptr;  // a machine without packs runs the reference kernel
+}
+KOKSMA_MATHS_END
+#else
+
 // In the order in which they build on each other.
 #include "pack_access.h"
+#include "distribution_pack.h"
 #include "surface_pack.h"
 #include "light_pack.h"
 #include "batch_numbers.h"
+#include "ray_order.h"
 
 KOKSMA_MATHS_BEGIN
 
@@ -20,8 +31,8 @@ class BatchTracer final : public Tracer {
 
 public:
     explicit BatchTracer(const TraceJob& job)
-        : scene_(job.scene), settings_(job.plan.integrator), numbers_(job, stats_), paths_(std::make_unique<detail::PathQueue>()),
-          shadows_(std::make_unique<detail::ShadowQueue>()) {
+        : scene_(job.scene), settings_(job.plan.integrator), numbers_(job, stats_), single_light_(job.scene), paths_(std::make_unique<detail::PathQueue>()),
+          shadows_(std::make_unique<detail::ShadowQueue>()), order_(job.scene) {
         for (std::uint32_t& m : packet_.mask) m = ~0u;
     }
 
@@ -40,6 +51,8 @@ public:
             if (!last_vertex_) numbers_.fill_bounce(static_cast<std::size_t>(depth_), {paths_->id, alive_});
             const std::size_t count = alive_;
             alive_ = waiting_ = 0;
+            sorted_ = depth_ > 0 && order_.pays(count);
+            if (sorted_) trace_in_order(count);
             for (std::size_t at = 0; at < count; at += kPack) bounce(at, Mask::first(count - at));
             trace_shadow_rays();
         }
@@ -78,7 +91,7 @@ private:
     }
 
     /// One pack of paths: from its ray to the next.
-    void bounce(std::size_t at, Mask active) {
+    [[gnu::flatten]] void bounce(std::size_t at, Mask active) {
         detail::PathQueue& q = *paths_;
         const Vec3<Float> o = load(q.o, at), d = load(q.d, at);
         Vec3<Float> beta = load(q.beta, at);
@@ -88,7 +101,18 @@ private:
         active = only_traceable(active, o, d);
         if (!any(active)) return;
         Int32 geometry, primitive;
-        closest_hit(at, active, o, d, geometry, primitive);
+        if (sorted_) {
+            geometry = Int32::load(geometry_ + at);
+            primitive = Int32::load(primitive_ + at);
+        } else {
+            const bool camera = depth_ == 0;
+            closest_hit(active, o, d, camera ? Float::load(q.t_near + at) : Float(0.0f), camera ? Float::load(q.t_far + at) : Float(kInfinity),
+                        camera ? Coherence::coherent : Coherence::incoherent);
+            geometry = as_int(UInt32::load(packet_.geometry));
+            primitive = as_int(UInt32::load(packet_.primitive));
+        }
+        stats_.rays.closest += static_cast<std::uint64_t>(count(active));
+        if (!hashes_.empty()) hash_hits(active, geometry, primitive);
         const Mask hit = active & (geometry != Int32(-1));
         if constexpr (kEffects.has(Effect::environment))
             if (const Mask escaped = active & !hit; any(escaped)) add_environment(at, escaped, d, beta);
@@ -158,28 +182,47 @@ private:
         alive_ = free;
     }
 
-    void closest_hit(std::size_t at, Mask active, const Vec3<Float>& o, const Vec3<Float>& d, Int32& geometry, Int32& primitive) {
+    /// Asks Embree; the answer is in packet_.
+    void closest_hit(Mask active, const Vec3<Float>& o, const Vec3<Float>& d, Float t_near, Float t_far, Coherence coherence) {
         o.x.store(packet_.o_x);
         o.y.store(packet_.o_y);
         o.z.store(packet_.o_z);
         d.x.store(packet_.d_x);
         d.y.store(packet_.d_y);
         d.z.store(packet_.d_z);
-        const bool camera = depth_ == 0;
-        (camera ? Float::load(paths_->t_near + at) : Float(0.0f)).store(packet_.t_near);
-        (camera ? Float::load(paths_->t_far + at) : Float(kInfinity)).store(packet_.t_far);
+        t_near.store(packet_.t_near);
+        t_far.store(packet_.t_far);
         UInt32(Hit::kNone).store(packet_.geometry);
         select(active, Int32(-1), Int32(0)).store(valid_);
-        stats_.rays.closest += static_cast<std::uint64_t>(count(active));
-        scene_.accelerator.intersect(packet_, valid_, camera ? Coherence::coherent : Coherence::incoherent);
-        geometry = as_int(UInt32::load(packet_.geometry));
-        primitive = as_int(UInt32::load(packet_.primitive));
-        if (!hashes_.empty())
-            for_lanes(active, [&](int i) {
-                const std::uint32_t g = packet_.geometry[i];
-                const Hit met{g, g == Hit::kNone ? Hit::kNone : packet_.primitive[i]};
-                hash(i, (std::uint64_t{met.geometry} << 32) | met.primitive);
-            });
+        scene_.accelerator.intersect(packet_, valid_, coherence);
+    }
+
+    /// Finds what the rays of the queue meet, neighbours in direction and place together.
+    void trace_in_order(std::size_t count) {
+        const detail::PathQueue& q = *paths_;
+        const std::size_t good = order_.sort(q, count);
+        for (std::size_t at = 0; at < good; at += kPack) {
+            const Mask active = Mask::first(good - at);
+            const Int32 place = order_.place(at);
+            closest_hit(active, {gather(q.o.x, place), gather(q.o.y, place), gather(q.o.z, place)},
+                        {gather(q.d.x, place), gather(q.d.y, place), gather(q.d.z, place)}, Float(0.0f), Float(kInfinity), Coherence::coherent);
+            alignas(4 * kLanes) IntLanes places;
+            place.store(places);
+            for (std::size_t i = 0; i < kPack && at + i < good; ++i) {
+                geometry_[places[i]] = static_cast<std::int32_t>(packet_.geometry[i]);
+                primitive_[places[i]] = static_cast<std::int32_t>(packet_.primitive[i]);
+            }
+        }
+    }
+
+    void hash_hits(Mask active, Int32 geometry, Int32 primitive) {
+        alignas(4 * kLanes) IntLanes g, p;
+        geometry.store(g);
+        primitive.store(p);
+        for_lanes(active, [&](int i) {
+            const auto met = static_cast<std::uint32_t>(g[i]), which = met == Hit::kNone ? Hit::kNone : static_cast<std::uint32_t>(p[i]);
+            hash(i, (std::uint64_t{met} << 32) | which);
+        });
     }
 
     void add_environment(std::size_t at, Mask escaped, const Vec3<Float>& d, const Vec3<Float>& beta) {
@@ -227,11 +270,13 @@ private:
         Float probability{1.0f};
         if constexpr (kEffects.has(Effect::light_choice)) {
             const Float u = numbers_.get_1d(at, smooth, SlotRole::light_choice, &BounceSlots::light_choice);
-            if (scene_.lights.size() > 1) choose_lights(smooth, u, index, probability);
+            const DiscreteSamplePack choice = sample_pack(scene_.light_choice, smooth, u);
+            index = choice.index;
+            probability = choice.probability;
         }
         Vec2<Float> u_light{};
         if constexpr (kExtendedLights) u_light = numbers_.get_2d(at, smooth, SlotRole::light_position, &BounceSlots::light_position);
-        const LightSamplePack light = sample_light_pack<kEffects>(scene_, smooth, index, s.p, u_light);
+        const LightSamplePack light = sample_light_pack<kEffects>(scene_, single_light_, smooth, index, s.p, u_light);
         Mask lit = smooth & (light.pdf_w > Float(0.0f));
         if (!any(lit)) return alive;
         const BsdfValueOf<Float> value = eval_bsdf<kEffects>(local.bsdf, wo_local, local.frame.to_local(light.wi));
@@ -254,19 +299,6 @@ private:
         select(light.at_infinity, Float(kInfinity), Float(1.0f)).compress_store(lit, q.t_far + waiting_);
         waiting_ += Int32::load(slots_).compress_store(lit, q.slot + waiting_);
         return alive;
-    }
-
-    void choose_lights(Mask smooth, Float u, Int32& index, Float& probability) {
-        const NumberLanes numbers(u);
-        NumberLanes probabilities(probability);
-        alignas(4 * kLanes) IntLanes chosen{};
-        for_lanes(smooth, [&](int i) {
-            const DiscreteSample choice = scene_.light_choice.sample(numbers.x[i]);
-            chosen[i] = static_cast<std::int32_t>(choice.index);
-            probabilities.x[i] = choice.probability;
-        });
-        index = Int32::load(chosen);
-        probability = probabilities.pack();
     }
 
     void trace_shadow_rays() {
@@ -333,24 +365,24 @@ private:
     const Scene& scene_;
     const IntegratorSettings& settings_;
     BatchNumbers numbers_;
+    const SingleLight single_light_;
     std::unique_ptr<detail::PathQueue> paths_;
     std::unique_ptr<detail::ShadowQueue> shadows_;
+    RayOrder order_;
     RayPacket<kLanes> packet_{};
+    alignas(64) detail::IntRow geometry_{}, primitive_{};  // hits of sorted rays
     alignas(4 * kLanes) IntLanes valid_{}, slots_{};
     std::span<Vec3f> radiance_;
     std::span<std::uint64_t> hashes_;
     std::size_t alive_ = 0, waiting_ = 0;
     std::int32_t depth_ = 0;
-    bool last_vertex_ = false;
+    bool last_vertex_ = false, sorted_ = false;
 };
 
 template <EffectSet kEffects>
-std::unique_ptr<Tracer> make_batch_tracer([[maybe_unused]] const TraceJob& job) {
-#if HWY_TARGET == HWY_SCALAR || HWY_TARGET == HWY_EMU128
-    return nullptr;
-#else
+std::unique_ptr<Tracer> make_batch_tracer(const TraceJob& job) {
     return std::make_unique<BatchTracer<kEffects>>(job);
-#endif
 }
 
 KOKSMA_MATHS_END
+#endif

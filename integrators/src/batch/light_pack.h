@@ -9,49 +9,100 @@ struct LightSamplePack {
     Mask delta, at_infinity;
 };
 
+/// A scene's only light, if it is one or two triangles without textures or normals: nothing to gather then.
+struct SingleLight {
+    bool usable = false;
+    Vec3f vertices[2][3];
+    explicit SingleLight(const Scene& scene) {
+        if (scene.lights.size() != 1) return;
+        const Light& light = scene.lights[0];
+        const std::size_t count = light.kind == LightKind::parallelogram ? 2 : light.kind == LightKind::mesh ? light.triangles.size() : 0;
+        if (count < 1 || count > 2 || light.radiance.index >= 0 || scene.geometries[light.geometry].has_normals) return;
+        for (std::size_t t = 0; t < 2; ++t)
+            for (std::size_t v = 0; v < 3; ++v)
+                vertices[t][v] = scene.positions[scene.triangles[scene.geometries[light.geometry].first + (t < count ? t : 0)][v]];
+        usable = true;
+    }
+    [[nodiscard]] TrianglePack triangle(Int32 which) const {
+        const Mask second = which == Int32(1);
+        const auto vertex = [&](int v) { return select<Float>(second, Vec3<Float>::splat(vertices[1][v]), Vec3<Float>::splat(vertices[0][v])); };
+        TrianglePack t;
+        t.v0 = vertex(0);
+        t.v1 = vertex(1);
+        t.v2 = vertex(2);
+        return t;
+    }
+};
+
+/// Chooses a triangle of mesh lights, by area.
+/// @param x  used, and left fresh
+inline void choose_triangles(const Scene& scene, Mask mesh, Int32 light, Int32& triangle, Float& x) {
+    if (scene.lights.size() == 1) {
+        const DiscreteDistribution& triangles = scene.lights[0].triangles;
+        triangle = Int32(0);
+        if (triangles.size() > 1) {
+            const DiscreteSamplePack t = sample_pack(triangles, mesh, x);
+            triangle = t.index;
+            x = t.u;
+        }
+        return;
+    }
+    alignas(4 * kLanes) IntLanes chosen, index;
+    NumberLanes numbers(x);
+    triangle.store(chosen);
+    light.store(index);
+    for_lanes(mesh, [&](int i) {
+        const DiscreteDistribution& triangles = scene.lights[static_cast<std::size_t>(index[i])].triangles;
+        chosen[i] = 0;
+        if (triangles.size() > 1) {
+            const DiscreteSample t = triangles.sample(numbers.x[i]);
+            chosen[i] = static_cast<std::int32_t>(t.index);
+            numbers.x[i] = t.u;
+        }
+    });
+    triangle = Int32::load(chosen);
+    x = numbers.pack();
+}
+
 /// As koksma::sample_light for lights made of triangles (parallelograms and meshes).
 template <EffectSet kEffects>
-[[nodiscard]] LightSamplePack sample_triangle_lights(const Scene& scene, Mask active, Int32 light, Vec3<Float> p, Vec2<Float> u) {
+[[nodiscard]] LightSamplePack sample_triangle_lights(const Scene& scene, const SingleLight& single, Mask active, Int32 light, Vec3<Float> p, Vec2<Float> u) {
     const Light* lights = scene.lights.data();
-    const Int32 kind = gather_int(lights, offsetof(Light, kind), light);
-    const Int32 geometry = gather_int(lights, offsetof(Light, geometry), light);
-    const Mask mesh = active & (kind == Int32(static_cast<int>(LightKind::mesh)));
+    const Mask mesh = active & (gather_int(lights, offsetof(Light, kind), light) == Int32(static_cast<int>(LightKind::mesh)));
     // A parallelogram's two triangles (0, 1, 2) and (0, 2, 3) over corners in circular order: the square maps without a seam.
     const Mask lower = u.x >= u.y;
     Int32 triangle = select(lower, Int32(0), Int32(1));
     Vec2<Float> b{select(lower, u.x - u.y, u.x), select(lower, u.y, u.y - u.x)};
     if (any(mesh)) {
-        alignas(4 * kLanes) IntLanes chosen, index;
-        NumberLanes x(u.x);
-        triangle.store(chosen);
-        light.store(index);
-        for_lanes(mesh, [&](int i) {
-            const DiscreteDistribution& triangles = lights[index[i]].triangles;
-            chosen[i] = 0;
-            if (triangles.size() > 1) {
-                const DiscreteSample t = triangles.sample(x.x[i]);
-                chosen[i] = static_cast<std::int32_t>(t.index);
-                x.x[i] = t.u;
-            }
-        });
-        triangle = Int32::load(chosen);
-        const Vec2<Float> m = square_to_triangle(Vec2<Float>{x.pack(), u.y});
+        Float x = u.x;
+        choose_triangles(scene, mesh, light, triangle, x);
+        const Vec2<Float> m = square_to_triangle(Vec2<Float>{x, u.y});
         b.x = select(mesh, m.x, b.x);
         b.y = select(mesh, m.y, b.y);
     }
     const GeometryRecord* records = scene.geometries.data();
-    const Int32 word = gather_int(records, 0, geometry);
-    const TrianglePack t = gather_triangle(scene, gather_int(records, offsetof(GeometryRecord, first), geometry) + triangle);
-    const SurfacePack s = triangle_surface_pack<kEffects>(scene, t, word, active, b);
-
+    SurfacePack s;
+    Float area;
+    if (single.usable) {
+        const Light& only = lights[0];
+        s = triangle_surface_pack<kEffects>(scene, single.triangle(triangle), Int32(scene.geometries[only.geometry].flip ? 1 << 8 : 0), active, b);
+        area = Float(only.area);
+    } else {
+        const Int32 geometry = gather_int(lights, offsetof(Light, geometry), light);
+        const TrianglePack t = gather_triangle(scene, gather_int(records, offsetof(GeometryRecord, first), geometry) + triangle);
+        s = triangle_surface_pack<kEffects>(scene, t, gather_int(records, 0, geometry), active, b);
+        area = gather_float(lights, offsetof(Light, area), light);
+    }
     const Vec3<Float> d = s.p - p;
-    const Float d2 = dot(d, d);
-    LightSamplePack out{};
-    out.wi = d * (Float(1.0f) / sqrt(d2));
+    const Float d2 = dot(d, d), distance = sqrt(d2);
+    LightSamplePack out;
+    out.wi = d * (Float(1.0f) / distance);
     const Mask lit = active & (d2 > Float(0.0f)) & (dot(out.wi, s.n) < Float(0.0f));
-    out.pdf_w = select(lit, area_to_solid_angle(d2, abs(dot(s.ng, out.wi)), gather_float(lights, offsetof(Light, area), light)), Float(0.0f));
-    out.radiance = texture_pack<kEffects>(scene, lights, offsetof(Light, radiance), light, lit, s.uv);
-    out.target = shadow_target(s.p, s.p_error, s.ng, sqrt(d2), -d);
+    out.pdf_w = select(lit, area_to_solid_angle(d2, abs(dot(s.ng, out.wi)), area), Float(0.0f));
+    out.radiance = single.usable ? Vec3<Float>::splat(lights[0].radiance.constant)
+                                 : texture_pack<kEffects>(scene, lights, offsetof(Light, radiance), light, lit, s.uv);
+    out.target = shadow_target(s.p, s.p_error, s.ng, distance, -d);
+    out.delta = out.at_infinity = Mask{};
     return out;
 }
 
@@ -84,15 +135,19 @@ void sample_other_lights(const Scene& scene, Mask active, Int32 light, Vec3<Floa
 
 /// As koksma::sample_light. @return  pdf_w zero in lanes without a sample
 template <EffectSet kEffects>
-[[nodiscard]] LightSamplePack sample_light_pack(const Scene& scene, Mask active, Int32 light, Vec3<Float> p, Vec2<Float> u) {
-    const Int32 kind = gather_int(scene.lights.data(), offsetof(Light, kind), light);
-    Mask triangles{};
-    LightSamplePack out{};
+[[nodiscard]] LightSamplePack sample_light_pack(const Scene& scene, const SingleLight& single, Mask active, Int32 light, Vec3<Float> p, Vec2<Float> u) {
     if constexpr (kEffects.has(Effect::area_light)) {
-        triangles = active & ((kind == Int32(static_cast<int>(LightKind::mesh))) | (kind == Int32(static_cast<int>(LightKind::parallelogram))));
-        if (any(triangles)) out = sample_triangle_lights<kEffects>(scene, triangles, select(triangles, light, first_lane(triangles, light)), p, u);
+        if (single.usable) return sample_triangle_lights<kEffects>(scene, single, active, Int32(0), p, u);
+        const Int32 kind = gather_int(scene.lights.data(), offsetof(Light, kind), light);
+        const Mask triangles = active & ((kind == Int32(static_cast<int>(LightKind::mesh))) | (kind == Int32(static_cast<int>(LightKind::parallelogram))));
+        if (any(triangles)) {
+            LightSamplePack out = sample_triangle_lights<kEffects>(scene, single, triangles, select(triangles, light, first_lane(triangles, light)), p, u);
+            if (const Mask others = active & !triangles; any(others)) sample_other_lights<kEffects>(scene, others, light, p, u, out);
+            return out;
+        }
     }
-    if (const Mask others = active & !triangles; any(others)) sample_other_lights<kEffects>(scene, others, light, p, u, out);
+    LightSamplePack out{};
+    sample_other_lights<kEffects>(scene, active, light, p, u, out);
     return out;
 }
 

@@ -37,7 +37,7 @@ struct TrianglePack {
 template <EffectSet kEffects>
 [[nodiscard]] SurfacePack triangle_surface_pack(const Scene& scene, const TrianglePack& t, Int32 word, Mask active, Vec2<Float> b) {
     const TrianglePointOf<Float> point = triangle_point(t.v0, t.v1, t.v2, b);
-    SurfacePack s{};
+    SurfacePack s;
     s.p = point.p;
     s.p_error = point.p_error;
     s.ng = s.n = point.ng;
@@ -53,6 +53,7 @@ template <EffectSet kEffects>
     }
     if constexpr (kEffects.has(Effect::texture) || kEffects.has(Effect::anisotropic)) {
         s.uv = b;
+        s.dpdu = Vec3<Float>(Float(0.0f));
         if (const Mask m = active & flag<3>(word); any(m)) {
             const auto uv = [&](int i) {
                 const Int32 index = select(m, t.index[i], Int32(0));
@@ -100,7 +101,7 @@ template <EffectSet kEffects>
     const Int32 word = gather_int(records, 0, g);
     Mask meshes = active;
     if constexpr (kEffects.has(Effect::analytic_shape)) meshes = active & ((word & Int32(0xff)) == Int32(static_cast<int>(GeometryKind::mesh)));
-    SurfacePack s{};
+    SurfacePack s;
     if (!kEffects.has(Effect::analytic_shape) || any(meshes)) {
         const Int32 triangle = select(meshes, gather_int(records, offsetof(GeometryRecord, first), g) + primitive, Int32(0));
         const TrianglePack t = gather_triangle(scene, triangle);
@@ -151,7 +152,7 @@ template <EffectSet kEffects>
 [[nodiscard]] LocalBsdfPack bsdf_pack(const Scene& scene, const SurfacePack& s, Mask active, Vec3<Float> wo) {
     const MaterialSides* materials = scene.materials.data();
     static_assert(sizeof(MaterialSides) == 12 && offsetof(MaterialSides, two_sided) == 8 && offsetof(MaterialSides, anisotropic) == 9);
-    LocalBsdfPack out{};
+    LocalBsdfPack out;
     out.frame = FrameOf<Float>::from_normal(s.n);
     Int32 side = gather_int(materials, offsetof(MaterialSides, front), s.material), flags{};
     if constexpr (kEffects.has(Effect::two_sided) || kEffects.has(Effect::anisotropic))

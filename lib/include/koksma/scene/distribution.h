@@ -49,6 +49,11 @@ public:
         return {i, static_cast<float>(width * inv_total_), rest < kOneMinusUlp ? (rest > 0.0f ? rest : 0.0f) : kOneMinusUlp};
     }
 
+    /// What sampling reads, for kernels that do it side by side: prefix sums, the last index of positive weight, 1 / total().
+    [[nodiscard]] std::span<const double> prefix_sums() const noexcept { return cdf_; }
+    [[nodiscard]] std::uint32_t last() const noexcept { return last_; }
+    [[nodiscard]] double inverse_total() const noexcept { return inv_total_; }
+
 private:
     std::vector<double> cdf_;
     double total_ = 0.0, inv_total_ = 0.0;
