@@ -25,13 +25,15 @@ enum class Effect : std::uint8_t {
     analytic_shape,   ///< spheres and disks
     shading_normals,  ///< interpolated normals
     roulette,         ///< Russian roulette: a 1-D draw per bounce from rr_depth on
+    many_lights,      ///< so many that one is chosen for the point to be lit, by a tree
 };
-inline constexpr int kEffectCount = 15;
+inline constexpr int kEffectCount = 16;
 
 [[nodiscard]] constexpr std::string_view name(Effect e) noexcept {
     constexpr std::string_view kNames[kEffectCount] = {"lens",       "light_choice", "area_light", "sphere_light",   "point_light",
                                                        "environment", "diffuse",      "glossy",     "specular",       "dielectric",
-                                                       "two_sided",  "texture",      "analytic_shape", "shading_normals", "roulette"};
+                                                       "two_sided",  "texture",      "analytic_shape", "shading_normals", "roulette",
+                                                       "many_lights"};
     return kNames[static_cast<int>(e)];
 }
 
