@@ -15,8 +15,9 @@ constexpr float kSlack = 1e-3f;
 /// The same for lengths, as a part of the distance.
 constexpr float kLengthSlack = 1e-6f;
 
-/// An estimate takes the cosine at the middle, but at least this part of the largest. Measured on scenes/many-lights.xml, as is
-/// distance^2 + radius^2: relative variance of a choice 0.94; by the largest cosine 1.05, and by max(distance, radius)^2 1.35.
+/// An estimate takes the cosine at the middle, but at least this part of the largest, and distance^2 + radius^2. Relative variance of
+/// a choice in scenes/many-lights.xml and under a ceiling of 1000 lamps (test_lights "[measure]"): 0.97 and 0.021; with the
+/// largest cosine instead 1.00 and 0.090; with the larger of distance and radius 1.05 and 0.014; with both 1.09 and 0.064.
 constexpr float kBoundShare = 0.25f;
 
 /// Nearer than this part of the lights' radius, importance grows no more.
