@@ -107,6 +107,22 @@ std::vector<EffectScene> effect_scenes() {
     d.integrator.max_depth = -1;
     d.integrator.rr_depth = 2;
     add(Effect::roulette, d);
+
+    d = floor_scene(false);
+    for (int i = 0; i < 24; ++i)
+        add_light(d, RectangleShape{}, translated({0.2 * i - 2.4, 1 + 0.1 * (i % 5), 0.3 * (i % 3)}) * scaled(0.05) * kDown, Rgb(9.0f, 1.0f + static_cast<float>(i), 3.0f));
+    add(Effect::many_lights, d);
+    // One light of many triangles: the choice of a triangle takes the slot of the choice of a light.
+    d = floor_scene(false);
+    std::vector<glm::vec3> corners;
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    for (std::uint32_t i = 0; i < 40; ++i) {
+        const float x = 0.1f * static_cast<float>(i) - 2.0f;
+        for (const glm::vec3 v : {glm::vec3(x, 1.0f, 0.0f), glm::vec3(x + 0.08f, 1.0f, 0.0f), glm::vec3(x, 1.1f, 0.2f)}) corners.push_back(v);
+        triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+    }
+    add_light(d, mesh(corners, triangles), Matrix(1.0), Rgb(5.0f));
+    add(Effect::many_lights, d);
     return out;
 }
 

@@ -3,6 +3,7 @@
 #include <scenes/render_scene.h>
 
 #include <koksma/sampling/error.h>
+#include <koksma/scene/light_sampling.h>
 
 #include <limits>
 

@@ -8,7 +8,7 @@ from harness import ProgramTest
 class Plan(ProgramTest):
     def test_text(self):
         out = self.succeeds("plan", "scene.xml", "--max-depth", "4").out
-        for words in ["effects        ", "area_light", "kernel         reference/diffuse (admissible:", "reference/all", "dimensions a path",
+        for words in ["effects        ", "area_light", "kernel         batch/diffuse (admissible:", "reference/all", "dimensions a path",
                       "film [0-1]", "light position [", "direction [", "tail           not reached"]:
             self.assertIn(words, out)
 

@@ -1,6 +1,9 @@
 // Direct light three ways: by light sampling, by BSDF sampling, and by both with the power heuristic. Each is an estimate of one
 // integral; a density that lies shows in the third even where the first two are right.
 
+#include <koksma/scene/light_choice.h>
+#include <koksma/scene/light_sampling.h>
+
 #include "render_scene.h"
 #include "uniform.h"
 
@@ -12,9 +15,9 @@ namespace {
 constexpr EffectSet kAll = EffectSet::all();
 
 /// Luminous kinds that are tested against every BSDF.
-enum class Kind { rectangle, sphere, inward_sphere, disk, mesh, textured, point, constant, map };
-constexpr Kind kKinds[] = {Kind::rectangle, Kind::sphere, Kind::inward_sphere, Kind::disk, Kind::mesh, Kind::textured, Kind::point, Kind::constant, Kind::map};
-constexpr const char* kNames[] = {"rectangle", "sphere", "inward sphere", "disk", "mesh", "textured rectangle", "point", "constant sky", "environment map"};
+enum class Kind { rectangle, sphere, inward_sphere, disk, mesh, textured, point, constant, map, many };
+constexpr Kind kKinds[] = {Kind::rectangle, Kind::sphere, Kind::inward_sphere, Kind::disk, Kind::mesh, Kind::textured, Kind::point, Kind::constant, Kind::map, Kind::many};
+constexpr const char* kNames[] = {"rectangle", "sphere", "inward sphere", "disk", "mesh", "textured rectangle", "point", "constant sky", "environment map", "many lights"};
 
 void add_lamp(SceneDescription& d, Kind kind) {
     // In the mirror direction of the camera, more or less.
@@ -44,6 +47,21 @@ void add_lamp(SceneDescription& d, Kind kind) {
             m.image = image(16, 8, std::move(texels));
             m.to_world = rotated({0.6, 0.8, 0}, 50);
             d.environment = m;
+            break;
+        }
+        case Kind::many: {
+            // A cloud of loose triangles, a grid of rectangles and a sky: the light tree with all that it tells apart.
+            std::vector<glm::vec3> corners;
+            std::vector<std::array<std::uint32_t, 3>> triangles;
+            for (std::uint32_t i = 0; i < 24; ++i) {
+                const auto x = static_cast<float>(i % 5), y = static_cast<float>(i % 7), z = static_cast<float>(i % 3);
+                const glm::vec3 c(0.4f * x - 0.8f, 0.3f * y - 0.9f, 0.2f * z);
+                corners.insert(corners.end(), {c, c + glm::vec3(0.2f, 0.02f * y, 0.05f * x), c + glm::vec3(0.05f * z, 0.25f, 0.03f * x)});
+                triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+            }
+            add_light(d, mesh(corners, triangles), at, Rgb(6.0f));
+            for (int i = 0; i < 9; ++i) add_light(d, RectangleShape{}, translated({0.4 * (i % 3), 1.5, 0.4 * (i / 3)}) * scaled(0.1) * kDown, Rgb(1.0f + static_cast<float>(i)));
+            d.environment = ConstantEnvironment{Rgb(0.1f), {}};
             break;
         }
     }
@@ -104,9 +122,9 @@ public:
     }
     /// One sample of light sampling, weighted or not; green.
     [[nodiscard]] double by_light(Uniform& u, bool weighted) const {
-        const DiscreteSample choice = scene_.light_choice.sample(u());
-        const LightSample s = sample_light<kAll>(scene_, scene_.lights[choice.index], surface_.p, u.pair());
-        if (!(s.pdf_w > 0.0f)) return 0.0;
+        const LightChoice choice = choose_light<kAll>(scene_, surface_.p, local_.frame.n, u());
+        const LightSample s = sample_light<kAll>(scene_, scene_.lights[choice.light], surface_.p, u.pair(), choice.triangle);
+        if (!(s.pdf_w > 0.0f && choice.probability > 0.0f)) return 0.0;
         const BsdfValue f = eval_bsdf<kAll>(local_.bsdf, wo_, local_.frame.to_local(s.wi));
         if (!(max_component(f.f_cos) > 0.0f)) return 0.0;
         Ray shadow;
@@ -130,15 +148,20 @@ public:
             le = emitted<kAll>(scene_, there, -wi);
             if (!(max_component(le) > 0.0f)) return 0.0;
             const auto light = static_cast<std::uint32_t>(scene_.geometries[there.geometry].light);
-            pdf_light = light_pdf<kAll>(scene_, scene_.lights[light], surface_.p, there, wi) * scene_.light_choice.probability(light);
+            const std::uint32_t triangle = chosen_triangle<kAll>(scene_, light, hit.primitive);
+            pdf_light = light_pdf<kAll>(scene_, scene_.lights[light], surface_.p, there, wi, triangle) * probability(light, triangle);
         } else if (scene_.environment_light >= 0) {
             le = environment_radiance<kAll>(scene_, wi);
-            pdf_light = environment_pdf<kAll>(scene_, wi) * scene_.light_choice.probability(static_cast<std::uint32_t>(scene_.environment_light));
+            pdf_light = environment_pdf<kAll>(scene_, wi) * probability(static_cast<std::uint32_t>(scene_.environment_light), kWholeLight);
         }
         return s.weight.y * le.y * (weighted ? power_heuristic(s.pdf_w, pdf_light) : 1.0f);
     }
 
 private:
+    [[nodiscard]] float probability(std::uint32_t light, std::uint32_t triangle) const {
+        return choice_probability<kAll>(scene_, light, triangle, surface_.p, local_.frame.n);
+    }
+
     const Scene& scene_;
     Surface surface_;
     LocalBsdf local_;
@@ -185,6 +208,7 @@ TEST_CASE("light sampling, BSDF sampling and both agree with the path kernel, fo
             CHECK(kernel.mean > 0.0);
             CHECK(kernel.invalid == 0);
             CHECK(agree(light, kernel));
+            CHECK(ready.plan.effects.has(Effect::many_lights) == (kind == Kind::many));
             if (kind == Kind::point) {
                 CHECK(bsdf.mean == 0.0);
             } else {

@@ -3,6 +3,7 @@
 
 #include <koksma/integrators/path.h>
 #include <koksma/integrators/thread_clock.h>
+#include <koksma/scene/light_choice.h>
 #include <koksma/scene/light_sampling.h>
 
 #include "batch/batch_state.h"

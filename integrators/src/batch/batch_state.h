@@ -31,6 +31,7 @@ struct alignas(64) PathQueue {
     VectorRows beta;             ///< f |cos| / pdf of the path so far
     FloatRow eta_scale;          ///< square of the index that the path is in
     VectorRows last_p;           ///< where the last direction was sampled,
+    VectorRows last_n;           ///< the shading normal there, for choosing among many lights,
     FloatRow pdf;                ///< with which density per steradian,
     IntRow delta;                ///< and -1 if light sampling could not have made it
     IntRow lossless;             ///< bounces in a row after which nothing was lost

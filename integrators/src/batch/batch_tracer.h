@@ -51,7 +51,7 @@ public:
             if (!last_vertex_) numbers_.fill_bounce(static_cast<std::size_t>(depth_), {paths_->id, alive_});
             const std::size_t count = alive_;
             alive_ = waiting_ = 0;
-            sorted_ = depth_ > 0 && order_.pays(count);
+            sorted_ = depth_ > 0 && order_.pays();  // never by the number of rays: Embree answers by flag
             if (sorted_) trace_in_order(count);
             for (std::size_t at = 0; at < count; at += kPack) bounce(at, Mask::first(count - at));
             trace_shadow_rays();
@@ -86,6 +86,7 @@ private:
             Int32(-1).store(q.delta + at);
             Int32(0).store(q.lossless + at);
             store(Vec3<Float>(Float(0.0f)), q.last_p, at);
+            store(Vec3<Float>{Float(0.0f), Float(0.0f), Float(1.0f)}, q.last_n, at);
             iota(static_cast<std::int32_t>(at)).store(q.slot + at);
         }
     }
@@ -122,7 +123,7 @@ private:
 
         // ---- light that the surfaces themselves send out
         if constexpr (kEffects.has(Effect::area_light))
-            if (const Mask shines = hit & (surface.light >= Int32(0)); any(shines)) add_emission(at, shines, surface, d, beta);
+            if (const Mask shines = hit & (surface.light >= Int32(0)); any(shines)) add_emission(at, shines, surface, primitive, d, beta);
         if (last_vertex_) return;
 
         const LocalBsdfPack local = bsdf_pack<kEffects>(scene_, surface, hit, wo);
@@ -169,7 +170,8 @@ private:
         compress_store(wi, alive, q.d, to);
         compress_store(beta, alive, q.beta, to);
         next.pdf_w.compress_store(alive, q.pdf + to);
-        if constexpr (kEffects.has(Effect::area_light)) compress_store(surface.p, alive, q.last_p, to);
+        if constexpr (kEffects.has(Effect::area_light) || kEffects.has(Effect::many_lights)) compress_store(surface.p, alive, q.last_p, to);
+        if constexpr (kEffects.has(Effect::many_lights)) compress_store(local.frame.n, alive, q.last_n, to);
         if constexpr (kEffects.has(Effect::dielectric)) eta_scale.compress_store(alive, q.eta_scale + to);
         if constexpr (kEffects.has(Effect::roulette)) lossless.compress_store(alive, q.lossless + to);
         if constexpr (kDelta)
@@ -233,19 +235,21 @@ private:
             const Vec3f le = environment_radiance<kEffects>(scene_, directions[i]);
             float weight = 1.0f;
             if (paths_->delta[path] == 0)
-                weight = koksma::power_heuristic(paths_->pdf[path], environment_pdf<kEffects>(scene_, directions[i]) *
-                                                                        light_probability(static_cast<std::uint32_t>(scene_.environment_light)));
+                weight = koksma::power_heuristic(
+                    paths_->pdf[path], environment_pdf<kEffects>(scene_, directions[i]) *
+                                           light_probability(path, static_cast<std::uint32_t>(scene_.environment_light), kWholeLight));
             radiance(i) += betas[i] * le * weight;
         });
     }
 
-    void add_emission(std::size_t at, Mask shines, const SurfacePack& s, const Vec3<Float>& d, const Vec3<Float>& beta) {
+    void add_emission(std::size_t at, Mask shines, const SurfacePack& s, Int32 primitive, const Vec3<Float>& d, const Vec3<Float>& beta) {
         if (depth_ == 0 && settings_.hide_emitters) return;
         const VectorLanes p(s.p), ng(s.ng), n(s.n), directions(d), betas(beta);
         const NumberLanes u(s.uv.x), v(s.uv.y);
-        alignas(4 * kLanes) IntLanes geometry, light;
+        alignas(4 * kLanes) IntLanes geometry, light, primitives;
         s.geometry.store(geometry);
         s.light.store(light);
+        primitive.store(primitives);
         for_lanes(shines, [&](int i) {
             const std::size_t path = at + static_cast<std::size_t>(i);
             const Vec3f wi = directions[i];
@@ -255,9 +259,9 @@ private:
             float weight = 1.0f;
             if (paths_->delta[path] == 0) {
                 const auto index = static_cast<std::uint32_t>(light[i]);
-                const Vec3f last_p{paths_->last_p.x[path], paths_->last_p.y[path], paths_->last_p.z[path]};
-                weight = koksma::power_heuristic(paths_->pdf[path],
-                                                 light_pdf<kEffects>(scene_, scene_.lights[index], last_p, surface, wi) * light_probability(index));
+                const std::uint32_t triangle = chosen_triangle<kEffects>(scene_, index, static_cast<std::uint32_t>(primitives[i]));
+                weight = koksma::power_heuristic(paths_->pdf[path], light_pdf<kEffects>(scene_, scene_.lights[index], vector(paths_->last_p, path), surface, wi, triangle) *
+                                                                        light_probability(path, index, triangle));
             }
             radiance(i) += betas[i] * le * weight;
         });
@@ -266,21 +270,17 @@ private:
     /// Queues the shadow rays of a pack. @return  the lanes of `alive` that stay valid
     Mask direct_light(std::size_t at, Mask alive, Mask smooth, const SurfacePack& s, const LocalBsdfPack& local, const Vec3<Float>& wo_local,
                       const Vec3<Float>& beta) {
-        Int32 index{};
-        Float probability{1.0f};
-        if constexpr (kEffects.has(Effect::light_choice)) {
-            const Float u = numbers_.get_1d(at, smooth, SlotRole::light_choice, &BounceSlots::light_choice);
-            const DiscreteSamplePack choice = sample_pack(scene_.light_choice, smooth, u);
-            index = choice.index;
-            probability = choice.probability;
-        }
+        LightChoicePack choice = LightChoicePack::only();
+        if constexpr (kEffects.has(Effect::light_choice))
+            choice = choose_light_pack<kEffects>(scene_, smooth, s.p, local.frame.n,
+                                                 numbers_.get_1d(at, smooth, SlotRole::light_choice, &BounceSlots::light_choice));
         Vec2<Float> u_light{};
         if constexpr (kExtendedLights) u_light = numbers_.get_2d(at, smooth, SlotRole::light_position, &BounceSlots::light_position);
-        const LightSamplePack light = sample_light_pack<kEffects>(scene_, single_light_, smooth, index, s.p, u_light);
-        Mask lit = smooth & (light.pdf_w > Float(0.0f));
+        const LightSamplePack light = sample_light_pack<kEffects>(scene_, single_light_, smooth, choice, s.p, u_light);
+        Mask lit = smooth & (light.pdf_w > Float(0.0f)) & (choice.probability > Float(0.0f));
         if (!any(lit)) return alive;
         const BsdfValueOf<Float> value = eval_bsdf<kEffects>(local.bsdf, wo_local, local.frame.to_local(light.wi));
-        const Float pdf_light = light.pdf_w * probability;
+        const Float pdf_light = light.pdf_w * choice.probability;
         const Float weight = select(light.delta, Float(1.0f), power_heuristic(pdf_light, value.pdf_w));
         const Vec3<Float> contribution = beta * value.f_cos * light.radiance * (weight / pdf_light);
         lit = lit & !(sum(contribution) <= Float(0.0f));  // a NaN goes on, to be counted
@@ -352,9 +352,12 @@ private:
         constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
         for_lanes(lanes, [&](int i) { radiance(i) = {kNan, kNan, kNan}; });
     }
-    [[nodiscard]] float light_probability(std::uint32_t light) const {
-        if constexpr (kEffects.has(Effect::light_choice)) return scene_.light_choice.probability(light);
-        return 1.0f;
+    [[nodiscard]] static Vec3f vector(const detail::VectorRows& rows, std::size_t at) { return {rows.x[at], rows.y[at], rows.z[at]}; }
+    /// Of a light that a path met without looking for it.
+    [[nodiscard]] float light_probability(std::size_t path, std::uint32_t light, std::uint32_t triangle) const {
+        if constexpr (kEffects.has(Effect::many_lights))
+            return choice_probability<kEffects>(scene_, light, triangle, vector(paths_->last_p, path), vector(paths_->last_n, path));
+        return choice_probability<kEffects>(scene_, light, triangle, Vec3f{}, Vec3f{});
     }
     [[nodiscard]] Vec3f& radiance(int lane) { return radiance_[static_cast<std::size_t>(slots_[lane])]; }
     void hash(int lane, std::uint64_t what) {

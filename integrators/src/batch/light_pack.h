@@ -34,6 +34,43 @@ struct SingleLight {
     }
 };
 
+/// As koksma::LightChoice.
+struct LightChoicePack {
+    Int32 light, triangle;
+    Float probability;
+    /// The only light there is.
+    [[nodiscard]] static LightChoicePack only() { return {Int32(0), Int32(static_cast<std::int32_t>(kWholeLight)), Float(1.0f)}; }
+};
+
+/// As koksma::choose_light.
+template <EffectSet kEffects>
+[[nodiscard]] LightChoicePack choose_light_pack(const Scene& scene, Mask active, const Vec3<Float>& p, const Vec3<Float>& n, Float u) {
+    LightChoicePack out = LightChoicePack::only();
+    if constexpr (kEffects.has(Effect::many_lights))
+        if (!scene.light_tree.empty()) {
+            const VectorLanes points(p), normals(n);
+            const NumberLanes numbers(u);
+            NumberLanes probability(Float(0.0f));
+            alignas(4 * kLanes) IntLanes light{}, triangle{};
+            for_lanes(active, [&](int i) {
+                const LightChoice choice = scene.light_tree.choose(points[i], normals[i], numbers.x[i]);
+                light[i] = static_cast<std::int32_t>(choice.light);
+                triangle[i] = static_cast<std::int32_t>(choice.triangle);
+                probability.x[i] = choice.probability;
+            });
+            out.light = Int32::load(light);
+            out.triangle = Int32::load(triangle);
+            out.probability = probability.pack();
+            return out;
+        }
+    if (scene.lights.size() > 1) {
+        const DiscreteSamplePack choice = sample_pack(scene.light_choice, active, u);
+        out.light = choice.index;
+        out.probability = choice.probability;
+    }
+    return out;
+}
+
 /// Chooses a triangle of mesh lights, by area.
 /// @param x  used, and left fresh
 inline void choose_triangles(const Scene& scene, Mask mesh, Int32 light, Int32& triangle, Float& x) {
@@ -64,9 +101,23 @@ inline void choose_triangles(const Scene& scene, Mask mesh, Int32 light, Int32& 
     x = numbers.pack();
 }
 
+/// Where a triangle was chosen and not its light: the triangle's area.
+[[nodiscard]] inline Float area_of_triangles(const Scene& scene, Mask active, const LightChoicePack& choice, Float area) {
+    const Mask single = active & (choice.triangle != Int32(static_cast<std::int32_t>(kWholeLight)));
+    if (!any(single)) return area;
+    NumberLanes areas(area);
+    alignas(4 * kLanes) IntLanes light, triangle;
+    choice.light.store(light);
+    choice.triangle.store(triangle);
+    for_lanes(single, [&](int i) { areas.x[i] = scene.lights[static_cast<std::size_t>(light[i])].area_of(static_cast<std::uint32_t>(triangle[i])); });
+    return areas.pack();
+}
+
 /// As koksma::sample_light for lights made of triangles (parallelograms and meshes).
 template <EffectSet kEffects>
-[[nodiscard]] LightSamplePack sample_triangle_lights(const Scene& scene, const SingleLight& single, Mask active, Int32 light, Vec3<Float> p, Vec2<Float> u) {
+[[nodiscard]] LightSamplePack sample_triangle_lights(const Scene& scene, const SingleLight& single, Mask active, const LightChoicePack& choice, Vec3<Float> p,
+                                                     Vec2<Float> u) {
+    const Int32 light = choice.light;
     const Light* lights = scene.lights.data();
     const Mask mesh = active & (gather_int(lights, offsetof(Light, kind), light) == Int32(static_cast<int>(LightKind::mesh)));
     // A parallelogram's two triangles (0, 1, 2) and (0, 2, 3) over corners in circular order: the square maps without a seam.
@@ -75,7 +126,9 @@ template <EffectSet kEffects>
     Vec2<Float> b{select(lower, u.x - u.y, u.x), select(lower, u.y, u.y - u.x)};
     if (any(mesh)) {
         Float x = u.x;
-        choose_triangles(scene, mesh, light, triangle, x);
+        const Mask whole = mesh & (choice.triangle == Int32(static_cast<std::int32_t>(kWholeLight)));
+        if (any(whole)) choose_triangles(scene, whole, light, triangle, x);
+        if constexpr (kEffects.has(Effect::many_lights)) triangle = select(mesh & !whole, choice.triangle, triangle);
         const Vec2<Float> m = square_to_triangle(Vec2<Float>{x, u.y});
         b.x = select(mesh, m.x, b.x);
         b.y = select(mesh, m.y, b.y);
@@ -92,6 +145,7 @@ template <EffectSet kEffects>
         const TrianglePack t = gather_triangle(scene, gather_int(records, offsetof(GeometryRecord, first), geometry) + triangle);
         s = triangle_surface_pack<kEffects>(scene, t, gather_int(records, 0, geometry), active, b);
         area = gather_float(lights, offsetof(Light, area), light);
+        if constexpr (kEffects.has(Effect::many_lights)) area = area_of_triangles(scene, active, choice, area);
     }
     const Vec3<Float> d = s.p - p;
     const Float d2 = dot(d, d), distance = sqrt(d2);
@@ -108,7 +162,7 @@ template <EffectSet kEffects>
 
 /// As koksma::sample_light, lane by lane.
 template <EffectSet kEffects>
-void sample_other_lights(const Scene& scene, Mask active, Int32 light, Vec3<Float> p, Vec2<Float> u, LightSamplePack& out) {
+void sample_other_lights(const Scene& scene, Mask active, Int32 light, Vec3<Float> p, Vec2<Float> u, LightSamplePack& out) {  // never a triangle alone
     const VectorLanes points(p);
     const NumberLanes x(u.x), y(u.y);
     alignas(4 * kLanes) IntLanes index;
@@ -135,13 +189,19 @@ void sample_other_lights(const Scene& scene, Mask active, Int32 light, Vec3<Floa
 
 /// As koksma::sample_light. @return  pdf_w zero in lanes without a sample
 template <EffectSet kEffects>
-[[nodiscard]] LightSamplePack sample_light_pack(const Scene& scene, const SingleLight& single, Mask active, Int32 light, Vec3<Float> p, Vec2<Float> u) {
+[[nodiscard]] LightSamplePack sample_light_pack(const Scene& scene, const SingleLight& single, Mask active, const LightChoicePack& choice, Vec3<Float> p,
+                                                Vec2<Float> u) {
+    const Int32 light = choice.light;
     if constexpr (kEffects.has(Effect::area_light)) {
-        if (single.usable) return sample_triangle_lights<kEffects>(scene, single, active, Int32(0), p, u);
+        if (single.usable) return sample_triangle_lights<kEffects>(scene, single, active, choice, p, u);
         const Int32 kind = gather_int(scene.lights.data(), offsetof(Light, kind), light);
         const Mask triangles = active & ((kind == Int32(static_cast<int>(LightKind::mesh))) | (kind == Int32(static_cast<int>(LightKind::parallelogram))));
         if (any(triangles)) {
-            LightSamplePack out = sample_triangle_lights<kEffects>(scene, single, triangles, select(triangles, light, first_lane(triangles, light)), p, u);
+            // The other lanes compute with the first of these lights: what they gather must be there.
+            LightChoicePack readable = choice;
+            readable.light = select(triangles, light, first_lane(triangles, light));
+            readable.triangle = select(triangles, choice.triangle, first_lane(triangles, choice.triangle));
+            LightSamplePack out = sample_triangle_lights<kEffects>(scene, single, triangles, readable, p, u);
             if (const Mask others = active & !triangles; any(others)) sample_other_lights<kEffects>(scene, others, light, p, u, out);
             return out;
         }

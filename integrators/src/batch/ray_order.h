@@ -9,7 +9,6 @@ KOKSMA_MATHS_BEGIN
 class RayOrder {
 public:
     static constexpr std::size_t kPrimitiveLimit = 1000;  ///< larger scenes are not sorted
-    static constexpr std::size_t kRayLimit = 512;         ///< nor are fewer rays
 
     explicit RayOrder(const Scene& scene) {
         const std::size_t primitives = scene.triangles.size() + scene.spheres.size() + scene.disks.size();
@@ -31,7 +30,7 @@ public:
         const auto cells = [](float extent) { return extent > 0.0f ? kCells / extent : 0.0f; };
         scale_ = {cells(high.x - low.x), cells(high.y - low.y), cells(high.z - low.z)};
     }
-    [[nodiscard]] bool pays(std::size_t rays) const { return usable_ && rays >= kRayLimit; }
+    [[nodiscard]] bool pays() const { return usable_; }
 
     /// Orders the rays of a queue that Embree may see. @return  how many those are
     std::size_t sort(const detail::PathQueue& q, std::size_t count) {

@@ -92,6 +92,18 @@ struct SurfaceLanes {
     }
 };
 
+inline void refine(const TrianglePack& t, const Vec3<Float>& o, const Vec3<Float>& d, Mask coarse, SurfacePack& s) {
+    const VectorLanes v0(t.v0), v1(t.v1), v2(t.v2), origins(o), directions(d);
+    VectorLanes p(s.p), p_error(s.p_error);
+    for_lanes(coarse, [&](int i) {
+        const RefinedPoint r = refined_point(v0[i], v1[i], v2[i], origins[i], directions[i], {p[i], p_error[i]});
+        p.set(i, r.p);
+        p_error.set(i, r.p_error);
+    });
+    s.p = p.pack();
+    s.p_error = p_error.pack();
+}
+
 /// @param active     lanes that met something
 /// @param geometry, primitive  of those lanes; anything in others
 template <EffectSet kEffects>
@@ -106,6 +118,7 @@ template <EffectSet kEffects>
         const Int32 triangle = select(meshes, gather_int(records, offsetof(GeometryRecord, first), g) + primitive, Int32(0));
         const TrianglePack t = gather_triangle(scene, triangle);
         s = triangle_surface_pack<kEffects>(scene, t, word, meshes, barycentrics(t.v0, t.v1, t.v2, o, d));
+        if (const Mask coarse = meshes & is_coarse(s.p, s.p_error, o); any(coarse)) refine(t, o, d, coarse, s);
     }
     if constexpr (kEffects.has(Effect::analytic_shape))
         if (const Mask others = active & !meshes; any(others)) {

@@ -15,6 +15,10 @@ void compile_shapes(Scene& scene, glm::dvec3 origin);
 /// Fills lights, their choice by power, and the environment. Needs the geometry.
 void compile_lights(Scene& scene, glm::dvec3 origin);
 
+/// What a tree over the lights could choose: all but the environment, mesh lights by triangle.
+/// @param radiances  by light: mean luminance of radiance or intensity
+[[nodiscard]] std::vector<LightLeaf> light_leaves(const Scene& scene, std::span<const double> radiances);
+
 /// A constant stays a constant; anything else becomes an entry of Scene::textures.
 [[nodiscard]] TextureRef texture_ref(Scene& scene, const Texture& texture);
 

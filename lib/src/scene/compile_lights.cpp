@@ -90,12 +90,29 @@ float bounding_radius(const Scene& scene) {
     return r2 > 0.0 ? static_cast<float>(std::sqrt(r2)) : 1.0f;
 }
 
+/// Lights, of meshes triangles, from which on a tree chooses (docs/design.md, "Many lights", has the measurement).
+constexpr std::size_t kManyLights = 16;
+
+/// Share of the environment where there is a tree beside it.
+constexpr float kEnvironmentShare = 0.5f;
+
+void compile_light_tree(Scene& scene, std::span<const double> radiances) {
+    const std::vector<LightLeaf> leaves = light_leaves(scene, radiances);
+    if (leaves.size() < kManyLights) return;
+    scene.light_tree = build_light_tree(leaves, scene.lights.size());
+    if (scene.environment_light >= 0) {
+        scene.light_tree.environment = static_cast<std::uint32_t>(scene.environment_light);
+        if (radiances[scene.light_tree.environment] > 0.0) scene.light_tree.environment_share = kEnvironmentShare;
+    }
+    scene.effects |= {Effect::light_choice, Effect::many_lights};
+}
+
 }  // namespace
 
 void compile_lights(Scene& scene, glm::dvec3 origin) {
     const SceneDescription& d = scene.description;
     scene.bounding_radius = bounding_radius(scene);
-    std::vector<double> powers;
+    std::vector<double> powers, radiances;
 
     for (std::size_t i = 0; i < d.shapes.size(); ++i) {
         if (!d.shapes[i].emission) continue;
@@ -111,7 +128,8 @@ void compile_lights(Scene& scene, glm::dvec3 origin) {
         scene.geometries[i].light = static_cast<std::int32_t>(scene.lights.size());
         scene.effects |= {Effect::area_light};
         if (light.kind == LightKind::sphere) scene.effects |= {Effect::sphere_light};
-        powers.push_back(kPiDouble * area * mean_luminance(d.shapes[i].emission->radiance));
+        radiances.push_back(mean_luminance(d.shapes[i].emission->radiance));
+        powers.push_back(kPiDouble * area * radiances.back());
         scene.lights.push_back(std::move(light));
     }
     for (const PointLight& p : d.point_lights) {
@@ -121,7 +139,8 @@ void compile_lights(Scene& scene, glm::dvec3 origin) {
         light.corner = Vec3f(glm::vec3(p.position - origin));
         light.radiance.constant = p.intensity;
         scene.effects |= {Effect::point_light};
-        powers.push_back(4.0 * kPiDouble * luminance(p.intensity));
+        radiances.push_back(luminance(p.intensity));
+        powers.push_back(4.0 * kPiDouble * radiances.back());
         scene.lights.push_back(std::move(light));
     }
     if (d.environment) {
@@ -139,14 +158,16 @@ void compile_lights(Scene& scene, glm::dvec3 origin) {
         scene.environment_light = static_cast<std::int32_t>(scene.lights.size());
         scene.effects |= {Effect::environment};
         const double r = scene.bounding_radius;
-        powers.push_back(4.0 * kPiDouble * kPiDouble * r * r * luminance(light.radiance.constant));
+        radiances.push_back(luminance(light.radiance.constant));
+        powers.push_back(4.0 * kPiDouble * kPiDouble * r * r * radiances.back());
         scene.lights.push_back(std::move(light));
     }
     // A light whose luminance is zero in spite of some colour still needs a chance; a black one gets none.
     for (std::size_t i = 0; i < powers.size(); ++i)
-        if (!(powers[i] > 0.0) && max_component(scene.lights[i].radiance.constant) > 0.0f) powers[i] = 1e-30;
+        if (!(powers[i] > 0.0) && max_component(scene.lights[i].radiance.constant) > 0.0f) powers[i] = radiances[i] = 1e-30;
     scene.light_choice = DiscreteDistribution(powers);
     if (scene.lights.size() > 1) scene.effects |= {Effect::light_choice};
+    compile_light_tree(scene, radiances);
 }
 
 }  // namespace koksma::detail

@@ -3,6 +3,7 @@
 
 #include <koksma/integrators/draws.h>
 #include <koksma/integrators/tracer.h>
+#include <koksma/scene/light_choice.h>
 #include <koksma/scene/light_sampling.h>
 
 #include <cmath>
@@ -45,6 +46,7 @@ template <EffectSet kEffects, class Observer>
     float pdf_bsdf = 0.0f;         // of the last direction, per steradian
     bool last_was_delta = true;    // light sampling could not have made the last direction
     Vec3f last_p{0.0f};
+    [[maybe_unused]] Vec3f last_n{0.0f, 0.0f, 1.0f};  // at last_p, on the side that reflects
     [[maybe_unused]] std::int32_t lossless = 0;  // bounces in a row after which nothing was lost
 
     Vec2f u_lens;
@@ -55,9 +57,8 @@ template <EffectSet kEffects, class Observer>
     observer.camera(ray);
     if (settings.max_depth == 0) return radiance;
 
-    const auto light_probability = [&](std::uint32_t light) {
-        if constexpr (kEffects.has(Effect::light_choice)) return scene.light_choice.probability(light);
-        return 1.0f;
+    const auto light_probability = [&](std::uint32_t light, std::uint32_t triangle = kWholeLight) {
+        return choice_probability<kEffects>(scene, light, triangle, last_p, last_n);
     };
 
     for (std::int32_t depth = 0;; ++depth) {
@@ -91,8 +92,9 @@ template <EffectSet kEffects, class Observer>
                 float weight = 1.0f;
                 if (!last_was_delta) {
                     const auto index = static_cast<std::uint32_t>(scene.geometries[surface.geometry].light);
-                    weight = power_heuristic(pdf_bsdf, light_pdf<kEffects>(scene, scene.lights[index], last_p, surface, ray.d) *
-                                                           light_probability(index));
+                    const std::uint32_t triangle = chosen_triangle<kEffects>(scene, index, hit.primitive);
+                    weight = power_heuristic(pdf_bsdf, light_pdf<kEffects>(scene, scene.lights[index], last_p, surface, ray.d, triangle) *
+                                                           light_probability(index, triangle));
                 }
                 radiance += beta * le * weight;
                 observer.emission(beta * le * weight, weight);
@@ -107,19 +109,15 @@ template <EffectSet kEffects, class Observer>
         // ---- light that arrives straight from a light source
         if constexpr (kSmooth) {
             if (has_smooth_lobe(local.bsdf) && scene.light_choice.total() > 0.0) {
-                std::uint32_t index = 0;
-                float probability = 1.0f;
-                if constexpr (kEffects.has(Effect::light_choice)) {
-                    const DiscreteSample choice = scene.light_choice.sample(draws.light_choice(bounce));
-                    index = choice.index;
-                    probability = choice.probability;
-                }
+                LightChoice choice;
+                if constexpr (kEffects.has(Effect::light_choice))
+                    choice = choose_light<kEffects>(scene, surface.p, local.frame.n, draws.light_choice(bounce));
                 Vec2f u_light;
                 if constexpr (kExtendedLights) u_light = draws.light_position(bounce);
-                const LightSample light = sample_light<kEffects>(scene, scene.lights[index], surface.p, u_light);
-                if (light.pdf_w > 0.0f) {
+                const LightSample light = sample_light<kEffects>(scene, scene.lights[choice.light], surface.p, u_light, choice.triangle);
+                if (light.pdf_w > 0.0f && choice.probability > 0.0f) {
                     const BsdfValue value = eval_bsdf<kEffects>(local.bsdf, wo_local, local.frame.to_local(light.wi));
-                    const float pdf_light = light.pdf_w * probability;
+                    const float pdf_light = light.pdf_w * choice.probability;
                     const float weight = light.delta ? 1.0f : power_heuristic(pdf_light, value.pdf_w);
                     const Vec3f contribution = beta * value.f_cos * light.radiance * (weight / pdf_light);
                     if (!(sum(contribution) <= 0.0f)) {  // a NaN goes on, to be counted
@@ -132,7 +130,7 @@ template <EffectSet kEffects, class Observer>
                         const bool visible = !scene.accelerator.occluded(shadow);
                         observer.shadow(shadow, visible);
                         if (visible) radiance += contribution;
-                        observer.direct_light(index, light, contribution, weight, visible);
+                        observer.direct_light(choice.light, light, contribution, weight, visible);
                     }
                 }
             }
@@ -161,6 +159,7 @@ template <EffectSet kEffects, class Observer>
         else
             last_was_delta = false;
         last_p = surface.p;
+        if constexpr (kEffects.has(Effect::many_lights)) last_n = local.frame.n;
         ray = Ray{offset_origin(surface.p, surface.p_error, surface.ng, wi), wi};
 
         // ---- Russian roulette: survival is never capped below one (a cap q gives infinite variance once albedo^2 >= q), except

@@ -26,13 +26,15 @@ enum class Effect : std::uint8_t {
     shading_normals,  ///< interpolated normals
     anisotropic,      ///< BSDFs that depend on the direction of u: a frame from the UVs
     roulette,         ///< Russian roulette: a 1-D draw per bounce from rr_depth on
+    many_lights,      ///< so many that one is chosen for the point to be lit, by a tree
 };
-inline constexpr int kEffectCount = 16;
+inline constexpr int kEffectCount = 17;
 
 [[nodiscard]] constexpr std::string_view name(Effect e) noexcept {
     constexpr std::string_view kNames[kEffectCount] = {"lens",       "light_choice", "area_light", "sphere_light",   "point_light",
                                                        "environment", "diffuse",      "glossy",     "specular",       "dielectric",
-                                                       "two_sided",  "texture",      "analytic_shape", "shading_normals", "anisotropic", "roulette"};
+                                                       "two_sided",  "texture",      "analytic_shape", "shading_normals", "anisotropic",
+                                                       "roulette",   "many_lights"};
     return kNames[static_cast<int>(e)];
 }
 

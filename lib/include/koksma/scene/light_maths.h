@@ -22,11 +22,12 @@ template <class Real>
     return select(possible, Real(1.0f) / (Real(1.0f) + r * r), Real(0.0f));
 }
 
-/// Density per steradian of a point at distance^2 whose normal makes |cos| with the direction.
+/// Density per steradian of a point at distance^2 whose normal makes |cos| with the direction; 0 where no float holds the area seen.
 template <class Real>
 [[nodiscard]] constexpr Real area_to_solid_angle(Real distance2, Real abs_cos, Real area) noexcept {
-    const auto visible = abs_cos > Real(0.0f);
-    return select(visible, distance2 / select(visible, abs_cos * area, Real(1.0f)), Real(0.0f));
+    const Real seen = abs_cos * area;
+    const auto visible = seen > Real(0.0f);
+    return select(visible, distance2 / select(visible, seen, Real(1.0f)), Real(0.0f));
 }
 
 /// The end of a shadow ray on a light's surface, moved off it to the side of `side`. Beyond the error of the point itself, Embree

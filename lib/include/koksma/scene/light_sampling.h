@@ -43,16 +43,17 @@ template <EffectSet kEffects>
     return static_cast<float>(sin2 / (1.0 + std::sqrt(1.0 - sin2)));
 }
 
-/// Density with which sample_light would have drawn the direction from p to the surface s of this light.
+/// Density with which sample_light would have drawn the direction from p to the surface s of this light (or of this triangle).
 template <EffectSet kEffects>
-[[nodiscard]] float light_pdf(const Scene& scene, const Light& light, Vec3f p, const Surface& s, Vec3f wi) noexcept {
+[[nodiscard]] float light_pdf(const Scene& scene, const Light& light, Vec3f p, const Surface& s, Vec3f wi,
+                              std::uint32_t triangle = kWholeLight) noexcept {
     if constexpr (kEffects.has(Effect::sphere_light))
         if (light.kind == LightKind::sphere && sampled_by_cone(scene, light)) {
             const float h = sphere_cone(scene.spheres[scene.geometries[light.geometry].first], p);
             return h > 0.0f ? 1.0f / (2.0f * kPi * h) : 0.0f;
         }
     const Vec3f d = s.p - p;
-    return area_to_solid_angle(dot(d, d), std::fabs(dot(s.ng, wi)), light.area);
+    return area_to_solid_angle(dot(d, d), std::fabs(dot(s.ng, wi)), light.area_of(triangle));
 }
 
 template <EffectSet kEffects>
@@ -62,16 +63,17 @@ template <EffectSet kEffects>
 
 namespace detail {
 
-/// Completes a sample whose point on the light is known.
+/// Completes a sample whose point on the light (or on this triangle) is known.
 template <EffectSet kEffects>
-[[nodiscard]] LightSample toward(const Scene& scene, const Light& light, const Surface& s, Vec3f p, float pdf_cone) noexcept {
+[[nodiscard]] LightSample toward(const Scene& scene, const Light& light, const Surface& s, Vec3f p, float pdf_cone,
+                                 std::uint32_t triangle = kWholeLight) noexcept {
     const Vec3f d = s.p - p;
     const float d2 = dot(d, d);
     if (!(d2 > 0.0f)) return {};
     LightSample out;
     out.wi = d * (1.0f / std::sqrt(d2));
     if (!(dot(out.wi, s.n) < 0.0f)) return {};
-    out.pdf_w = pdf_cone > 0.0f ? pdf_cone : area_to_solid_angle(d2, std::fabs(dot(s.ng, out.wi)), light.area);
+    out.pdf_w = pdf_cone > 0.0f ? pdf_cone : area_to_solid_angle(d2, std::fabs(dot(s.ng, out.wi)), light.area_of(triangle));
     out.radiance = texture_value<kEffects>(scene, light.radiance, s.uv);
     out.target = shadow_target(s.p, s.p_error, s.ng, std::sqrt(d2), -d);
     return out;
@@ -80,8 +82,9 @@ template <EffectSet kEffects>
 }  // namespace detail
 
 /// Draws a direction toward a light as seen from p.
+/// @param only  one triangle of a mesh, as choose_light names it
 template <EffectSet kEffects>
-[[nodiscard]] LightSample sample_light(const Scene& scene, const Light& light, Vec3f p, Vec2f u) noexcept {
+[[nodiscard]] LightSample sample_light(const Scene& scene, const Light& light, Vec3f p, Vec2f u, std::uint32_t only = kWholeLight) noexcept {
     if constexpr (kEffects.has(Effect::point_light))
         if (light.kind == LightKind::point) {
             const Vec3f d = light.corner - p;
@@ -137,7 +140,9 @@ template <EffectSet kEffects>
                     b = {u.x, u.y - u.x};
                 }
             } else {
-                if (light.triangles.size() > 1) {
+                if (only != kWholeLight) {
+                    triangle = only;
+                } else if (light.triangles.size() > 1) {
                     const DiscreteSample t = light.triangles.sample(u.x);
                     triangle = t.index;
                     u.x = t.u;
@@ -145,7 +150,7 @@ template <EffectSet kEffects>
                 b = square_to_triangle(u);
             }
             const Surface s = triangle_surface<kEffects>(scene, light.geometry, scene.geometries[light.geometry].first + triangle, b);
-            return detail::toward<kEffects>(scene, light, s, p, 0.0f);
+            return detail::toward<kEffects>(scene, light, s, p, 0.0f, only);
         }
         if constexpr (kEffects.has(Effect::analytic_shape))
             if (light.kind == LightKind::disk) {

@@ -8,6 +8,7 @@
 #include <koksma/scene/description.h>
 #include <koksma/scene/distribution.h>
 #include <koksma/scene/environment_map.h>
+#include <koksma/scene/light_tree.h>
 #include <koksma/scene/texture.h>
 
 #include <optional>
@@ -52,6 +53,11 @@ struct Light {
     Vec3f corner, edge_u, edge_v;  ///< parallelogram; `corner` is also the position of a point light
     float area = 0.0f;             ///< m^2
     DiscreteDistribution triangles;  ///< of a mesh, by area
+
+    /// m^2 of a triangle of a mesh, or of the whole.
+    [[nodiscard]] float area_of(std::uint32_t triangle) const noexcept {
+        return triangle == kWholeLight ? area : area * triangles.probability(triangle);
+    }
 };
 
 /// Everything that a kernel reads. Built by compile(); nothing changes it afterwards.
@@ -75,6 +81,7 @@ struct Scene {
 
     std::vector<Light> lights;
     DiscreteDistribution light_choice;  ///< by power
+    LightTree light_tree;               ///< instead, where there are many; otherwise empty
     std::int32_t environment_light = -1;
     std::optional<EnvironmentMap> environment_map;
     float bounding_radius = 1.0f;

@@ -28,6 +28,23 @@ namespace detail {
 
 }  // namespace detail
 
+/// A hit point and the bound of its coordinates' errors.
+struct RefinedPoint {
+    Vec3f p, p_error;
+};
+
+/// Where the ray meets the plane of a triangle, in double. @return  the point given, if that is no better
+[[nodiscard]] inline RefinedPoint refined_point(Vec3f v0, Vec3f v1, Vec3f v2, Vec3f o, Vec3f d, RefinedPoint coarse) noexcept {
+    const Vec3d a = to_double(v0) - to_double(o), n = cross(to_double(v1) - to_double(v0), to_double(v2) - to_double(v0)), direction = to_double(d);
+    const double dn = dot(direction, n);
+    const double t = dot(a, n) / dn;
+    const double t_error = 0x1p-50 * dot(abs(a), abs(n)) / std::fabs(dn);  // 8 roundings
+    const Vec3f p = to_float(to_double(o) + direction * t);
+    const Vec3f p_error = abs(p) * error_gamma(1) + to_float(abs(direction) * t_error);
+    if (!(max_component(p_error) < max_component(coarse.p_error))) return coarse;  // also where the ray lies in the plane
+    return {p, p_error};
+}
+
 /// A point of a triangle by the barycentrics of its second and third vertex.
 template <EffectSet kEffects>
 [[nodiscard]] Surface triangle_surface(const Scene& scene, std::uint32_t geometry, std::uint32_t triangle, Vec2f b) noexcept {
@@ -112,9 +129,14 @@ template <EffectSet kEffects>
     }
     const std::uint32_t triangle = g.first + hit.primitive;
     const auto& index = scene.triangles[triangle];
-    return triangle_surface<kEffects>(
-        scene, hit.geometry, triangle,
-        barycentrics(scene.positions[index[0]], scene.positions[index[1]], scene.positions[index[2]], ray.o, ray.d));
+    const Vec3f v0 = scene.positions[index[0]], v1 = scene.positions[index[1]], v2 = scene.positions[index[2]];
+    Surface s = triangle_surface<kEffects>(scene, hit.geometry, triangle, barycentrics(v0, v1, v2, ray.o, ray.d));
+    if (is_coarse(s.p, s.p_error, ray.o)) {
+        const RefinedPoint r = refined_point(v0, v1, v2, ray.o, ray.d, {s.p, s.p_error});
+        s.p = r.p;
+        s.p_error = r.p_error;
+    }
+    return s;
 }
 
 /// The value of a texture at a surface.

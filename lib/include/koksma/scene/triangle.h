@@ -55,6 +55,13 @@ template <class Real>
             select<Real>(regular, unit, Vec3<Real>{Real(0.0f), Real(0.0f), Real(1.0f)}), b0};
 }
 
+/// True where a point between vertices is too coarse for the ray that found it: its error exceeds 2^-12 of the way. So it is
+/// on a triangle thousands of times as large as the way, where also Embree's choice between two neighbours is that coarse.
+template <class Real>
+[[nodiscard]] MaskOf<Real> is_coarse(Vec3<Real> p, Vec3<Real> p_error, Vec3<Real> o) noexcept {
+    return max_component(p_error) > max_component(abs(p - o)) * Real(0x1p-12f);
+}
+
 /// A normal interpolated between the vertices', unit; `otherwise` where they cancel out.
 template <class Real>
 [[nodiscard]] Vec3<Real> interpolated_normal(Vec3<Real> n0, Vec3<Real> n1, Vec3<Real> n2, Real b0, Vec2<Real> b, Vec3<Real> otherwise) noexcept {
