@@ -163,8 +163,7 @@ Json rates(const SamplerFactory& factory) {
 Json card_of(const SamplerFactory& factory) {
     if (factory.info().max_dimensions < kDimensions)
         throw UsageError(fmt::format("a card draws {} dimensions; sampler '{}' has {}", kDimensions, factory.name(), factory.info().max_dimensions));
-    return {{"name", factory.name()},       {"info", json_of(factory.info())},        {"remark", factory.info().remark},
-            {"version", version_text()},    {"randomized", factory.randomized()},     {"seed", kSeed},
+    return {{"name", factory.name()},       {"info", json_of(factory.info())},        {"version", version_text()},    {"randomized", factory.randomized()},     {"seed", kSeed},
             {"pictures", pictures(factory)}, {"spectrum", spectrum(factory)},         {"discrepancies", discrepancies(factory)},
             {"quality", quality(factory)},  {"speed", speed(factory)},                {"rates", rates(factory)}};
 }
