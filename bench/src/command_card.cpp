@@ -84,15 +84,19 @@ Json spectrum(const SamplerFactory& factory) {
 
 Json discrepancies(const SamplerFactory& factory) {
     constexpr std::uint64_t kMostExact = 1024;
+    constexpr std::size_t kBrackets = 20000;
     Json rows = Json::array();
     for (std::uint64_t k = 2; k <= 2 * kMostExact; k *= 2)
         for (const std::uint64_t n : {k, k + k / 2}) {
             if (n > kMostExact || n > factory.info().max_samples) continue;
-            const std::vector<double> all = points_of(factory, n, 4, kSeed), one = leading(all, 4, 1), two = leading(all, 4, 2);
+            const std::vector<double> all = points_of(factory, n, 4, kSeed), one = leading(all, 4, 1), two = leading(all, 4, 2), three = leading(all, 4, 3);
+            const StarBounds star3 = star_discrepancy_bounds({three, 3}, kBrackets), star4 = star_discrepancy_bounds({all, 4}, kBrackets);
             rows.push_back({{"n", n},
                             {"good", factory.info().good_counts.contains(n)},
                             {"star1", star_discrepancy({one, 1})},
                             {"star2", star_discrepancy({two, 2})},
+                            {"star3", {{"lo", star3.lower}, {"hi", star3.upper}}},
+                            {"star4", {{"lo", star4.lower}, {"hi", star4.upper}}},
                             {"l2star2", l2_star_discrepancy({two, 2})},
                             {"l2star4", l2_star_discrepancy({all, 4})},
                             {"centred2", centred_discrepancy({two, 2})},
