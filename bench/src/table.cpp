@@ -33,10 +33,10 @@ std::string with_percent(const Json& value, const Json& lo, const Json& hi) {
 void print_scene(const Json& scene) {
     fmt::print("\n{}: crop {}x{} of {}x{}, {} dimensions, kernel {}\n", scene.at("name").get<std::string>(), scene.at("crop")[2].get<int>(), scene.at("crop")[3].get<int>(),
                scene.at("film")[0].get<int>(), scene.at("film")[1].get<int>(), scene.at("dimensions").get<int>(), scene.at("kernel").get<std::string>());
-    fmt::print("  {:<24}{:>5} {:>5}  {:<20}{:<20}{:>11}{:>11}{:>9}\n", "sampler", "spp", "runs", "RMSE", "relMSE", "CPU s", "wall s", "sampler");
+    fmt::print("  {:<28}{:>5} {:>5}  {:<20}{:<20}{:>11}{:>11}{:>9}\n", "sampler", "spp", "runs", "RMSE", "relMSE", "CPU s", "wall s", "sampler");
     for (const Json& s : scene.at("samplers"))
         for (const Json& p : s.at("points"))
-            fmt::print("  {:<24}{:>5} {:>5}  {:<20}{:<20}{:>11.4f}{:>11.4f}{:>7.1f} %\n", s.at("sampler").get<std::string>(), p.at("spp").get<std::uint64_t>(),
+            fmt::print("  {:<28}{:>5} {:>5}  {:<20}{:<20}{:>11.4f}{:>11.4f}{:>7.1f} %\n", s.at("sampler").get<std::string>(), p.at("spp").get<std::uint64_t>(),
                        p.at("replicates").get<int>(), with_percent(p.at("rmse"), p.at("rmse_lo"), p.at("rmse_hi")),
                        with_percent(p.at("relmse"), p.at("relmse_lo"), p.at("relmse_hi")), p.at("cpu_seconds").get<double>(), p.at("wall_seconds").get<double>(),
                        100.0 * p.at("sampler_share").get<double>());
@@ -54,7 +54,7 @@ void print_rates(const Json& scene) {
         std::string times;
         for (const Json& t : s.at("time_to"))
             times += fmt::format("{:>12}", t.at("seconds").is_null() ? "not reached" : fmt::format("{}{:.3g}", t.at("how") == "measured" ? "<= " : "", t.at("seconds").get<double>()));
-        fmt::print("  {:<10}{:<24}{:<26}{:<38}{}\n", scene.at("name").get<std::string>(), s.at("sampler").get<std::string>(),
+        fmt::print("  {:<10}{:<28}{:<26}{:<38}{}\n", scene.at("name").get<std::string>(), s.at("sampler").get<std::string>(),
                    slope.is_null() ? "-" : with_interval(slope.at("value"), slope.at("lo"), slope.at("hi"), "{:.3f}"), gain_text, times);
     }
 }
@@ -70,7 +70,7 @@ void print_layouts(const Json& scene) {
             const auto rmse = [](const Json& x) { return x.is_null() ? std::string("below floor") : fmt::format("{:.3e}", x.get<double>()); };
             std::string verdict;
             if (!spread.at("lo").is_null() && spread.at("lo") == 0.0) verdict = "layouts not distinguishable";
-            fmt::print("  {:<10}{:<24}{:>5}  {:<12}{:<12}{:<12}{:<22}{:<24}{}\n", scene.at("name").get<std::string>(), s.at("sampler").get<std::string>(),
+            fmt::print("  {:<10}{:<28}{:>5}  {:<12}{:<12}{:<12}{:<22}{:<24}{}\n", scene.at("name").get<std::string>(), s.at("sampler").get<std::string>(),
                        l.at("spp").get<std::uint64_t>(), rmse(l.at("rmse")), rmse(l.at("lowest")), rmse(l.at("highest")),
                        fmt::format("{} [{}, {}] %", percent(spread.at("value")), percent(spread.at("lo")), percent(spread.at("hi"))),
                        with_interval(plan.at("value"), plan.at("lo"), plan.at("hi"), "{:.3f}"), verdict);
@@ -123,13 +123,13 @@ void print_tables(const Json& summary) {
     std::string targets;
     for (const Json& t : summary.at("scenes")[0].at("samplers")[0].at("time_to")) targets += fmt::format("{:>12}", fmt::format("{:g}", t.at("relmse").get<double>()));
     fmt::print("\nRates (log RMSE against log spp, 1 spp left out), MSE gain over random at the largest spp, CPU seconds to reach a relMSE of\n");
-    fmt::print("  {:<10}{:<24}{:<26}{:<38}{}\n", "scene", "sampler", "slope [95 %]", "gain [95 %]", targets);
+    fmt::print("  {:<10}{:<28}{:<26}{:<38}{}\n", "scene", "sampler", "slope [95 %]", "gain [95 %]", targets);
     for (const Json& scene : summary.at("scenes")) print_rates(scene);
     for (const Json& scene : summary.at("scenes")) print_counts(scene);
     if (any_layouts(summary)) {
         fmt::print("\nLuck of dimensions: RMSE over permuted layouts (geometric mean, lowest, highest), their standard deviation without the replicates' noise, and\n"
                    "the RMSE of the layout as planned over that of the permuted ones [95 %]\n");
-        fmt::print("  {:<10}{:<24}{:>5}  {:<12}{:<12}{:<12}{:<22}{:<24}\n", "scene", "sampler", "spp", "RMSE", "lowest", "highest", "spread [95 %]", "planned/permuted [95 %]");
+        fmt::print("  {:<10}{:<28}{:>5}  {:<12}{:<12}{:<12}{:<22}{:<24}\n", "scene", "sampler", "spp", "RMSE", "lowest", "highest", "spread [95 %]", "planned/permuted [95 %]");
         for (const Json& scene : summary.at("scenes")) print_layouts(scene);
     }
     if (const auto invalid = summary.at("invalid_samples").get<std::uint64_t>(); invalid > 0) fmt::print("\n{} invalid samples (they count as zero); koksma render --stats locates them\n", invalid);
