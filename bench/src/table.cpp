@@ -80,7 +80,7 @@ void print_layouts(const Json& scene) {
 
 /// MSE gains over random at every count, samplers as columns.
 void print_counts(const Json& scene) {
-    constexpr int kWidth = 23;
+    constexpr int kWidth = 28;
     std::map<std::uint64_t, std::vector<std::string>> lines;
     std::vector<std::string> names;
     for (const Json& s : scene.at("samplers")) {
@@ -94,8 +94,8 @@ void print_counts(const Json& scene) {
         }
     }
     if (names.empty()) return;
-    fmt::print("\n{}: MSE gain over random [95 %] at any count; * a good count of the sampler's own base; ~ random was not run there, its error is interpolated\n{:>7}  ",
-               scene.at("name").get<std::string>(), "spp");
+    fmt::print("\n{}: MSE gain over random [95 %] at any count; * a good count of the sampler's own base; ~ random was not run there, its error is\n"
+               "interpolated\n{:>7}  ", scene.at("name").get<std::string>(), "spp");
     for (std::string name : names) {
         if (name.size() + 1 > kWidth) name.resize(kWidth - 1);
         fmt::print("{:<{}}", name, kWidth);
@@ -127,9 +127,10 @@ void print_tables(const Json& summary) {
     for (const Json& scene : summary.at("scenes")) print_rates(scene);
     for (const Json& scene : summary.at("scenes")) print_counts(scene);
     if (any_layouts(summary)) {
-        fmt::print("\nLuck of dimensions: RMSE over permuted layouts (geometric mean, lowest, highest), their standard deviation without the replicates' noise, and\n"
-                   "the RMSE of the layout as planned over that of the permuted ones [95 %]\n");
-        fmt::print("  {:<10}{:<28}{:>5}  {:<12}{:<12}{:<12}{:<22}{:<24}\n", "scene", "sampler", "spp", "RMSE", "lowest", "highest", "spread [95 %]", "planned/permuted [95 %]");
+        fmt::print("\nLuck of dimensions: RMSE over permuted layouts (geometric mean, lowest, highest), their standard deviation without the replicates'\n"
+                   "noise, and the RMSE of the layout as planned over that of the permuted ones [95 %]\n");
+        fmt::print("  {:<10}{:<28}{:>5}  {:<12}{:<12}{:<12}{:<22}{:<24}\n", "scene", "sampler", "spp", "RMSE", "lowest", "highest", "spread [95 %]",
+                   "planned/permuted [95 %]");
         for (const Json& scene : summary.at("scenes")) print_layouts(scene);
     }
     if (const auto invalid = summary.at("invalid_samples").get<std::uint64_t>(); invalid > 0) fmt::print("\n{} invalid samples (they count as zero); koksma render --stats locates them\n", invalid);

@@ -123,11 +123,13 @@ TEST_CASE("levels of a step agree with a table of rates made elsewhere, counted 
     Registry registry;
     register_samplers(registry);
     const Seldom law(1024);
-    std::printf("step at N = 1024: of 256 replicates %.1f +- %.1f misjudge the stratum of 1/pi by nearly all of it\n%-32s %8s %8s\n", law.expected(), law.sd(), "sampler", "ours", "theirs");
+    std::printf("step at N = 1024: of 256 replicates %.1f +- %.1f misjudge the stratum of 1/pi by nearly all of it\n", law.expected(), law.sd());
+    std::printf("%-32s %8s %8s\n", "sampler", "ours", "theirs");
     for (const auto& [spec, row] : {std::pair{"halton:randomize=cp", "halton_cp"}, {"halton:randomize=digits", "halton_rdp"}, {"halton:randomize=owen", "halton_owen"},
                                     {"sobol:randomize=xor", "sobol_xor"}, {"sobol:randomize=owen", "sobol_owen"}, {"sobol-padded", "sobol_pad2"}, {"lhs", "lhs"},
                                     {"stratified", "jitter"}}) {
-        const double ours = law.count(run_rates(*registry.make(spec), kStep, {.counts = {1024}}).at(1024).rmse), theirs = law.count(rows.at({row, "step", 1}).rmse_1024);
+        const double ours = law.count(run_rates(*registry.make(spec), kStep, {.counts = {1024}}).at(1024).rmse);
+        const double theirs = law.count(rows.at({row, "step", 1}).rmse_1024);
         std::printf("%-32s %8.1f %8.1f\n", spec, ours, theirs);
         for (const double count : {ours, theirs}) {
             INFO(spec << ": " << count << " replicates");
