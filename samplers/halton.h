@@ -3,9 +3,10 @@
 // Source: Halton 1964, "Algorithm 247: Radical-inverse quasi-random point sequence"; Cranley and Patterson 1976 (cp);
 // Owen 1995, "Randomly permuted (t,m,s)-nets and (t,s)-sequences" (owen: nested permutations, here in prime bases).
 
-#include "owen_hash.h"
 #include "pixel_keys.h"
 #include "primes.h"
+
+#include <koksma/sampling/owen_hash.h>
 
 namespace koksma {
 

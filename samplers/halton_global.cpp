@@ -9,11 +9,6 @@ HaltonSampler::Randomize parse(const std::string& name) {
     return name == "digits" ? HaltonSampler::Randomize::digits : HaltonSampler::Randomize::owen;
 }
 
-const SamplingPlan& checked(const SamplerOptions& options, const SamplingPlan& plan) {
-    check_film(options, plan);
-    return plan;
-}
-
 }  // namespace
 
 HaltonEnumeration::HaltonEnumeration(std::uint64_t width, std::uint64_t height) noexcept
@@ -34,15 +29,14 @@ std::uint64_t HaltonEnumeration::index(Pixel pixel, std::uint64_t n) const noexc
     return n * stride() + steps * columns_ + column;
 }
 
-glm::vec2 HaltonGlobalSampler::Point::film() const noexcept {
-    const HaltonGlobalSampler& s = *sampler_;
-    Key column_key = s.key_, row_key = s.key_;
-    if (s.randomize_ == HaltonSampler::Randomize::owen) {  // nested: what is below a pixel's digits depends on them
-        column_key = derive_key(s.key_, static_cast<std::uint32_t>(pixel_.x));
-        row_key = derive_key(s.key_, static_cast<std::uint32_t>(pixel_.y));
+glm::vec2 HaltonGlobalSampler::film(Pixel pixel, std::uint64_t index) const noexcept {
+    Key column_key = key_, row_key = key_;
+    if (randomize_ == HaltonSampler::Randomize::owen) {  // nested: what is below a pixel's digits depends on them
+        column_key = derive_key(key_, static_cast<std::uint32_t>(pixel.x));
+        row_key = derive_key(key_, static_cast<std::uint32_t>(pixel.y));
     }
-    return {HaltonSampler::Point(s.bases_, column_key, s.enumeration_.column_index(index_), s.randomize_).get_1d({.dimension = 0}),
-            HaltonSampler::Point(s.bases_, row_key, s.enumeration_.row_index(index_), s.randomize_).get_1d({.dimension = 1})};
+    return {HaltonSampler::Point(bases_, column_key, enumeration_.column_index(index), randomize_).get_1d({.dimension = 0}),
+            HaltonSampler::Point(bases_, row_key, enumeration_.row_index(index), randomize_).get_1d({.dimension = 1})};
 }
 
 SamplerInfo HaltonGlobalSampler::info() {
@@ -63,7 +57,7 @@ SamplerInfo HaltonGlobalSampler::info() {
 
 HaltonGlobalSampler::HaltonGlobalSampler(const SamplerOptions& options, const SamplingPlan& plan)
     : bases_(halton_bases()),
-      enumeration_(static_cast<std::uint64_t>(checked(options, plan).film_width), static_cast<std::uint64_t>(plan.film_height)),
+      enumeration_(static_cast<std::uint64_t>(with_film_checked(options, plan).film_width), static_cast<std::uint64_t>(plan.film_height)),
       dimensions_(plan.layout),
       key_(pixel_key(plan.seed ^ 0x68616c2d676c6f62ull, {})),
       randomize_(parse(options["randomize"])) {}

@@ -34,33 +34,19 @@ private:
 
 class HaltonGlobalSampler {
 public:
-    class Point {
-    public:
-        Point(const HaltonGlobalSampler& sampler, Pixel pixel, std::uint64_t index) noexcept
-            : sampler_(&sampler), pixel_(pixel), index_(index), rest_(sampler.bases_, sampler.key_, index, sampler.randomize_) {}
-
-        [[nodiscard]] float get_1d(const Slot& slot) const noexcept {
-            if (sampler_->dimensions_.is_film(slot)) return film().x;
-            return rest_.get_1d({.dimension = sampler_->dimensions_.of(slot)});
-        }
-        [[nodiscard]] glm::vec2 get_2d(const Slot& slot) const noexcept {
-            if (sampler_->dimensions_.is_film(slot)) return film();
-            return rest_.get_2d({.dimension = sampler_->dimensions_.of(slot), .arity = 2});
-        }
-
-    private:
-        [[nodiscard]] glm::vec2 film() const noexcept;
-        const HaltonGlobalSampler* sampler_;
-        Pixel pixel_;
-        std::uint64_t index_;
-        HaltonSampler::Point rest_;
-    };
+    using Point = ImagePoint<HaltonGlobalSampler, HaltonSampler::Point>;
 
     [[nodiscard]] static SamplerInfo info();
     HaltonGlobalSampler(const SamplerOptions& options, const SamplingPlan& plan);
 
     /// @note  slots must end at or below dimension 1022 (SampleSource draws the others from the tail)
-    [[nodiscard]] Point point(Pixel pixel, std::uint64_t index) const noexcept { return {*this, pixel, enumeration_.index(pixel, index)}; }
+    [[nodiscard]] Point point(Pixel pixel, std::uint64_t index) const noexcept {
+        const std::uint64_t i = enumeration_.index(pixel, index);
+        return {*this, pixel, i, HaltonSampler::Point(bases_, key_, i, randomize_)};
+    }
+    /// Where a point of the sequence lies within its pixel. @param index  of the sequence
+    [[nodiscard]] glm::vec2 film(Pixel pixel, std::uint64_t index) const noexcept;
+    [[nodiscard]] const ImageDimensions& dimensions() const noexcept { return dimensions_; }
 
 private:
     const HaltonBase* bases_;

@@ -1,7 +1,7 @@
 #pragma once
 // The order in which a padded sampler visits its points: a nested uniform (Owen) permutation of the sample index.
 
-#include "owen_hash.h"
+#include <koksma/sampling/owen_hash.h>
 
 namespace koksma {
 

@@ -3,8 +3,9 @@
 // Source: Christensen, Kensler and Kilpatrick 2018, "Progressive multi-jittered sample sequences", Computer Graphics Forum
 // 37(4); the tables are data/pmj02_best.inc, made by tools/make_pmj02.cpp.
 
-#include "owen_hash.h"
 #include "pixel_keys.h"
+
+#include <koksma/sampling/owen_hash.h>
 
 #include <bit>
 

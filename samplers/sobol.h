@@ -3,8 +3,9 @@
 // Source: Sobol' 1967; S. Joe and F. Y. Kuo 2008, "Constructing Sobol' sequences with better two-dimensional projections",
 // SIAM J. Sci. Comput. 30, 2635-2654 (table new-joe-kuo-6); Owen scrambling: owen_hash.h.
 
-#include "owen_hash.h"
 #include "pixel_keys.h"
+
+#include <koksma/sampling/owen_hash.h>
 
 #include <array>
 

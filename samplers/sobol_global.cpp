@@ -11,11 +11,6 @@ SobolSampler::Randomize parse(const std::string& name) {
     return name == "xor" ? SobolSampler::Randomize::digital_shift : SobolSampler::Randomize::owen;
 }
 
-const SamplingPlan& checked(const SamplerOptions& options, const SamplingPlan& plan) {
-    check_film(options, plan);
-    return plan;
-}
-
 }  // namespace
 
 SobolEnumeration::SobolEnumeration(int width_bits, int height_bits) noexcept : width_bits_(width_bits), height_bits_(height_bits) {
@@ -50,18 +45,17 @@ std::uint64_t SobolEnumeration::index(Pixel pixel, std::uint64_t n) const noexce
     return index;
 }
 
-glm::vec2 SobolGlobalSampler::Point::film() const noexcept {
-    const Key key = sampler_->key_;
-    SobolEnumeration::Position p = sampler_->enumeration_.within_pixel(index_);
-    switch (sampler_->randomize_) {
+glm::vec2 SobolGlobalSampler::film(Pixel pixel, std::uint64_t index) const noexcept {
+    SobolEnumeration::Position p = enumeration_.within_pixel(index);
+    switch (randomize_) {
         case SobolSampler::Randomize::none: break;
         case SobolSampler::Randomize::digital_shift:
-            p.x_rev ^= keyed_hash(key, 0);
-            p.y_rev ^= keyed_hash(key, 1);
+            p.x_rev ^= keyed_hash(key_, 0);
+            p.y_rev ^= keyed_hash(key_, 1);
             break;
         default:  // nested: what is below a pixel's digits depends on them
-            p.x_rev = owen_hash_rev(p.x_rev, keyed_hash(derive_key(key, static_cast<std::uint32_t>(pixel_.x)), 0));
-            p.y_rev = owen_hash_rev(p.y_rev, keyed_hash(derive_key(key, static_cast<std::uint32_t>(pixel_.y)), 1));
+            p.x_rev = owen_hash_rev(p.x_rev, keyed_hash(derive_key(key_, static_cast<std::uint32_t>(pixel.x)), 0));
+            p.y_rev = owen_hash_rev(p.y_rev, keyed_hash(derive_key(key_, static_cast<std::uint32_t>(pixel.y)), 1));
     }
     return {unit_float(reverse_bits(p.x_rev)), unit_float(reverse_bits(p.y_rev))};
 }
@@ -85,7 +79,7 @@ SamplerInfo SobolGlobalSampler::info() {
 
 SobolGlobalSampler::SobolGlobalSampler(const SamplerOptions& options, const SamplingPlan& plan)
     : matrices_(sobol_matrices()),
-      enumeration_(ceil_log2(static_cast<std::uint64_t>(checked(options, plan).film_width)), ceil_log2(static_cast<std::uint64_t>(plan.film_height))),
+      enumeration_(ceil_log2(static_cast<std::uint64_t>(with_film_checked(options, plan).film_width)), ceil_log2(static_cast<std::uint64_t>(plan.film_height))),
       dimensions_(plan.layout),
       key_(pixel_key(plan.seed ^ 0x736f626f6c2d67ull, {})),
       randomize_(parse(options["randomize"])) {}

@@ -40,33 +40,19 @@ private:
 
 class SobolGlobalSampler {
 public:
-    class Point {
-    public:
-        Point(const SobolGlobalSampler& sampler, Pixel pixel, std::uint64_t index) noexcept
-            : sampler_(&sampler), pixel_(pixel), index_(index), rest_(sampler.matrices_, sampler.key_, index, sampler.randomize_) {}
-
-        [[nodiscard]] float get_1d(const Slot& slot) const noexcept {
-            if (sampler_->dimensions_.is_film(slot)) return film().x;
-            return rest_.get_1d({.dimension = sampler_->dimensions_.of(slot)});
-        }
-        [[nodiscard]] glm::vec2 get_2d(const Slot& slot) const noexcept {
-            if (sampler_->dimensions_.is_film(slot)) return film();
-            return rest_.get_2d({.dimension = sampler_->dimensions_.of(slot), .arity = 2});
-        }
-
-    private:
-        [[nodiscard]] glm::vec2 film() const noexcept;
-        const SobolGlobalSampler* sampler_;
-        Pixel pixel_;
-        std::uint64_t index_;
-        SobolSampler::Point rest_;
-    };
+    using Point = ImagePoint<SobolGlobalSampler, SobolSampler::Point>;
 
     [[nodiscard]] static SamplerInfo info();
     SobolGlobalSampler(const SamplerOptions& options, const SamplingPlan& plan);
 
     /// @note  slots must end at or below dimension 4094 (SampleSource draws the others from the tail)
-    [[nodiscard]] Point point(Pixel pixel, std::uint64_t index) const noexcept { return {*this, pixel, enumeration_.index(pixel, index)}; }
+    [[nodiscard]] Point point(Pixel pixel, std::uint64_t index) const noexcept {
+        const std::uint64_t i = enumeration_.index(pixel, index);
+        return {*this, pixel, i, SobolSampler::Point(matrices_, key_, i, randomize_)};
+    }
+    /// Where a point of the sequence lies within its pixel. @param index  of the sequence
+    [[nodiscard]] glm::vec2 film(Pixel pixel, std::uint64_t index) const noexcept;
+    [[nodiscard]] const ImageDimensions& dimensions() const noexcept { return dimensions_; }
 
 private:
     const SobolNibble* matrices_;

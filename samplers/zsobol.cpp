@@ -17,11 +17,6 @@ constexpr std::array<std::uint8_t, 24> make_permutations() {
 }
 constexpr std::array<std::uint8_t, 24> kPermutations = make_permutations();
 
-const SamplingPlan& checked(const SamplerOptions& options, const SamplingPlan& plan) {
-    check_film(options, plan);
-    return plan;
-}
-
 }  // namespace
 
 std::uint64_t permute_digits4(std::uint64_t n, int bits, std::uint64_t key) noexcept {
@@ -56,7 +51,7 @@ SamplerInfo ZSobolSampler::info() {
 }
 
 ZSobolSampler::ZSobolSampler(const SamplerOptions& options, const SamplingPlan& plan)
-    : sample_bits_(ceil_log2(std::max<std::uint64_t>(checked(options, plan).spp, 1))),
+    : sample_bits_(ceil_log2(std::max<std::uint64_t>(with_film_checked(options, plan).spp, 1))),
       bits_(2 * ceil_log2(static_cast<std::uint64_t>(std::max(plan.film_width, plan.film_height))) + sample_bits_),
       order_key_(pixel_key(plan.seed ^ 0x7a736f626f6cull, {})),
       value_key_(derive_key(order_key_, 0x76616c756573ull)),

@@ -5,8 +5,9 @@
 // pixels", ACM Trans. Graph. 39(6). That the permutations depend on the seed is ours: replicates need it.
 
 #include "film_bits.h"
-#include "owen_hash.h"
 #include "sobol_pair.h"
+
+#include <koksma/sampling/owen_hash.h>
 
 #include <array>
 

@@ -55,9 +55,10 @@ def radial_power(spectrum: dict, key: str) -> Markup:
 
 
 def star_discrepancies(rows: list, key: str) -> Markup:
-    """Exact star discrepancy in one and two dimensions against the number of points."""
-    return _against_n("Star discrepancy, exact", rows, key,
+    """Star discrepancy against the number of points: exact in one and two dimensions, between two bounds in three and four."""
+    return _against_n("Star discrepancy: exact, and bounds", rows, key,
                       [("dimension 0", "star1", 0, "o"), ("dimensions 0, 1", "star2", 1, "s")],
+                      bands=[("dimensions 0 to 2, bounds", "star3", 2), ("dimensions 0 to 3, bounds", "star4", 3)],
                       guides=[(-0.5, "N^-1/2"), (-1, "1/N")])
 
 
@@ -87,7 +88,8 @@ def rate_plot(rates: list, key: str) -> Markup:
         return inline_svg(figure, key, "Relative RMSE against samples")
 
 
-def _against_n(title: str, rows: list, key: str, series: list, dashed: list = (), guides: list = ()) -> Markup:
+def _against_n(title: str, rows: list, key: str, series: list, dashed: list = (), guides: list = (),
+               bands: list = ()) -> Markup:
     with style.context(drawing(key)):
         figure = Figure(figsize=(5.7, 4.5), layout="constrained")
         axes = figure.subplots()
@@ -98,6 +100,9 @@ def _against_n(title: str, rows: list, key: str, series: list, dashed: list = ()
             y = np.array([row[field] for row in rows])
             axes.loglog(n, y, marker, markevery=np.flatnonzero(good).tolist(), linestyle="-", color=COLORS[color], markersize=4,
                         linewidth=1.1, label=label)
+        for label, field, color in bands:
+            lo, hi = (np.array([row[field][end] for row in rows]) for end in ("lo", "hi"))
+            axes.fill_between(n, lo, hi, color=COLORS[color], alpha=0.3, linewidth=0.6, label=label)
         for field, color in dashed:
             axes.loglog(n, [row[field] for row in rows], color=COLORS[color], linewidth=0.8, dashes=(3, 2))
         _guides(axes, guides, n, 1.0)

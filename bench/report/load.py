@@ -90,7 +90,9 @@ def _sampler(node: Node, directory: Path) -> model.SamplerResult:
                                                     gain.at("spp").integer(1)),
         crop=load_picture(node.at("crop"), directory),
         crop_spp=None if node.at("crop_spp").is_null() else node.at("crop_spp").integer(1),
-        error_map=load_picture(node.at("error_map"), directory))
+        error_map=load_picture(node.at("error_map"), directory),
+        layouts=tuple(_layouts(item) for item in _items_or_none(node.at("layouts"))),
+        counts=tuple(_count(item) for item in _items_or_none(node.at("any_count"))))
 
 
 def _point(node: Node) -> model.Point:
@@ -100,6 +102,25 @@ def _point(node: Node) -> model.Point:
         relmse=_estimate(node, "relmse", "relmse_lo", "relmse_hi", least=0),
         cpu_seconds=node.at("cpu_seconds").number(0), wall_seconds=node.at("wall_seconds").number(0),
         sampler_share=node.at("sampler_share").number_or_none(0), below_floor=node.at("below_floor").flag())
+
+
+def _items_or_none(node: Node) -> list[Node]:
+    return [] if node.is_null() else list(node.items())
+
+
+def _layouts(node: Node) -> model.LayoutSpread:
+    return model.LayoutSpread(
+        spp=node.at("spp").integer(1), permuted=node.at("permuted").integer(2),
+        rmse=model.Estimate(node.at("rmse").number_or_none(0)),
+        lowest=node.at("lowest").number_or_none(0), highest=node.at("highest").number_or_none(0),
+        spread=_estimate(node.at("spread"), "value", "lo", "hi", least=0),
+        planned=_estimate(node.at("plan_over_permuted"), "value", "lo", "hi", least=0),
+        each=tuple(_estimate(item, "rmse", "lo", "hi", least=0) for item in node.at("each").items()))
+
+
+def _count(node: Node) -> model.CountGain:
+    return model.CountGain(node.at("spp").integer(1), _estimate(node, "mse_ratio", "lo", "hi", least=0), node.at("own").flag(),
+                           node.at("how").one_of("measured", "interpolated") == "interpolated")
 
 
 def _slope(node: Node) -> model.Slope:

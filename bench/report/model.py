@@ -64,6 +64,30 @@ class Gain:
 
 
 @dataclass(frozen=True)
+class LayoutSpread:
+    """One sampler at one spp under permuted layouts of its dimensions; `each` begins with the layout as planned."""
+
+    spp: int
+    permuted: int
+    rmse: Estimate
+    lowest: float | None
+    highest: float | None
+    spread: Estimate
+    planned: Estimate
+    each: tuple[Estimate, ...]
+
+
+@dataclass(frozen=True)
+class CountGain:
+    """Gain over random at one spp; interpolated where random was not run at it. `own`: a good count of the sampler's base."""
+
+    spp: int
+    ratio: Estimate
+    own: bool
+    interpolated: bool
+
+
+@dataclass(frozen=True)
 class SamplerResult:
     """Everything about one sampler in one scene; points ascend in spp."""
 
@@ -77,6 +101,8 @@ class SamplerResult:
     crop: Picture | None
     crop_spp: int | None
     error_map: Picture | None
+    layouts: tuple[LayoutSpread, ...]
+    counts: tuple[CountGain, ...]
 
     @property
     def is_baseline(self) -> bool:

@@ -5,6 +5,7 @@ from pathlib import Path
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
 from . import formats, tables
+from .counts_layouts import gain_at_counts, layout_spread
 from .figures import error_vs_seconds, error_vs_spp
 from .model import Picture, Scene, Summary
 from .overview import overview_figure
@@ -43,6 +44,9 @@ def _scene_context(scene: Scene, styles: dict[str, Style], key: str) -> dict:
         "has_points_below_floor": any(p.below_floor for s in scene.samplers for p in s.points),
         "error_maps": any(s.error_map for s in scene.samplers),
         "crop_frame": _crop_frame(scene),
+        "layout_figure": layout_spread(scene, styles, f"{key}-layouts") if any(s.layouts for s in scene.samplers) else "",
+        "count_rows": tables.count_rows(scene),
+        "count_figure": gain_at_counts(scene, styles, f"{key}-counts") if any(s.counts for s in scene.samplers) else "",
     }
 
 

@@ -5,7 +5,7 @@ Nothing is estimated here; an interval that includes 1 was computed by the progr
 
 from dataclasses import dataclass
 
-from .model import Gain, SamplerResult, Scene, Summary, TimeTo
+from .model import CountGain, Gain, SamplerResult, Scene, Summary, TimeTo
 
 
 @dataclass(frozen=True)
@@ -104,6 +104,15 @@ def fastest(scene: Scene, target: float) -> dict[str, str]:
     if len(level) == len(ranked):
         return {}
     return {name: "best" if len(level) == 1 else "joint best" for name in level}
+
+
+def count_rows(scene: Scene) -> list[tuple[int, dict[str, CountGain]]]:
+    """The gains at every count by sampler name, counts ascending; a sampler that was not run at a count is not in its row."""
+    rows: dict[int, dict[str, CountGain]] = {}
+    for result in scene.samplers:
+        for gain in result.counts:
+            rows.setdefault(gain.spp, {})[result.sampler] = gain
+    return sorted(rows.items())
 
 
 def remarks(scene: Scene) -> list[str]:

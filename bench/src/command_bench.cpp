@@ -15,6 +15,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <set>
 
 namespace koksma {
 
@@ -29,6 +30,7 @@ Json header_json(const Experiment& e, const std::vector<std::unique_ptr<SamplerF
         std::string label = s->info().title;
         if (s->options().has("randomize")) label += " (" + s->options()["randomize"] + ")";
         labels.push_back({{"sampler", s->name()}, {"label", label}, {"version", s->info().version}});
+        if (e.own_counts) labels.back()["own_counts"] = own_counts(e, s->info());
     }
     return {{"kind", "header"},
             {"experiment",
@@ -46,6 +48,8 @@ Json header_json(const Experiment& e, const std::vector<std::unique_ptr<SamplerF
             {"samplers", labels},
             {"relmse_targets", e.targets},
             {"crop_spp", e.crop_spp},
+            {"layouts", e.layouts},
+            {"any_count", e.own_counts},
             {"scenes", Json::array()}};
 }
 
@@ -87,6 +91,21 @@ Json scene_json(const BenchScene& s, const Reference& reference) {
             {"crops", Json::object()}};
 }
 
+/// Every number of samples that some sampler is run at, increasing.
+std::vector<std::uint64_t> all_spp(const std::vector<std::vector<Count>>& counts) {
+    std::set<std::uint64_t> all;
+    for (const std::vector<Count>& of_sampler : counts)
+        for (const Count& c : of_sampler) all.insert(c.spp);
+    return {all.begin(), all.end()};
+}
+
+/// 0 where the sampler is not run at this count.
+int replicates_at(const std::vector<Count>& counts, std::uint64_t spp) {
+    for (const Count& c : counts)
+        if (c.spp == spp) return c.replicates;
+    return 0;
+}
+
 }  // namespace
 
 int run_bench(const BenchCommand& command, const Registry& registry, const std::string& command_line) {
@@ -103,8 +122,10 @@ int run_bench(const BenchCommand& command, const Registry& registry, const std::
     for (const BenchScene& s : scenes)
         for (const auto& sampler : samplers)  // a limit is told now, not after an hour
             static_cast<void>(sampler->bind(sampling_plan(s.scene, s.plan, experiment.spp.back(), 0)));
+    std::vector<std::vector<SlotOrder>> orders;
+    for (const BenchScene& s : scenes) orders.push_back(slot_orders(s.plan.layout, static_cast<std::size_t>(experiment.layouts)));
     if (command.dry_run) {
-        print_price(experiment, scenes, registry, command.threads);
+        print_price(experiment, scenes, samplers, registry, command.threads);
         return 0;
     }
 
@@ -124,7 +145,12 @@ int run_bench(const BenchCommand& command, const Registry& registry, const std::
     LineFile partial(out / "results.partial.jsonl");
     {
         Progress progress("bench", true);
-        const auto per_scene = static_cast<double>(paths_per_pixel(experiment) * samplers.size());
+        std::vector<std::vector<Count>> counts;
+        std::uint64_t per_scene = 0;
+        for (const auto& sampler : samplers) {
+            counts.push_back(counts_of(experiment, sampler->info()));
+            per_scene += amount_of(experiment, *sampler).paths_per_pixel;
+        }
         double done = 0.0;
         for (std::size_t i = 0; i < scenes.size(); ++i) {
             const BenchScene& s = scenes[i];
@@ -137,22 +163,25 @@ int run_bench(const BenchCommand& command, const Registry& registry, const std::
             // Samplers take turns within a replicate: what slows the machine down slows all of them.
             const int most = *std::max_element(experiment.replicates.begin(), experiment.replicates.end());
             for (int replicate = 0; replicate < most; ++replicate)
-                for (std::size_t k = 0; k < experiment.spp.size(); ++k) {
-                    if (replicate >= experiment.replicates[k]) continue;
-                    for (const auto& sampler : samplers) {
-                        if (replicate > 0 && !sampler->randomized()) continue;  // it would be the same render again
-                        std::vector<float> image;
-                        rows.push_back(measure(s, *sampler, reference, experiment.spp[k], replicate, experiment.seed, command.threads, image));
-                        partial.add(rows.back());
-                        if (replicate == 0 && experiment.spp[k] == experiment.crop_spp) {
-                            const std::string name = "pictures/" + s.what.name + "-" + file_stem(sampler->name()) + ".png";
-                            write_png(out / name, image, s.what.crop.width, s.what.crop.height, exposure);
-                            entry["crops"][sampler->name()] = name;
+                for (const std::uint64_t spp : all_spp(counts))
+                    for (std::size_t k = 0; k < samplers.size(); ++k) {
+                        const SamplerFactory& sampler = *samplers[k];
+                        if (replicate >= replicates_at(counts[k], spp)) continue;
+                        if (replicate > 0 && !sampler.randomized()) continue;  // it would be the same render again
+                        for (std::size_t layout = 0; layout < orders[i].size(); ++layout) {
+                            std::vector<float> image;
+                            const Trial trial{spp, replicate, static_cast<int>(layout), &orders[i][layout]};
+                            rows.push_back(measure(s, sampler, reference, trial, experiment.seed, command.threads, image));
+                            partial.add(rows.back());
+                            if (replicate == 0 && layout == 0 && spp == experiment.crop_spp) {
+                                const std::string name = "pictures/" + s.what.name + "-" + file_stem(sampler.name()) + ".png";
+                                write_png(out / name, image, s.what.crop.width, s.what.crop.height, exposure);
+                                entry["crops"][sampler.name()] = name;
+                            }
+                            done += static_cast<double>(spp);
+                            progress.update(done / (static_cast<double>(per_scene) * static_cast<double>(scenes.size())), s.what.name);
                         }
-                        done += static_cast<double>(experiment.spp[k]);
-                        progress.update(done / (per_scene * static_cast<double>(scenes.size())), s.what.name);
                     }
-                }
             header["scenes"].push_back(entry);
         }
     }

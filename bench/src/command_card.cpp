@@ -84,15 +84,19 @@ Json spectrum(const SamplerFactory& factory) {
 
 Json discrepancies(const SamplerFactory& factory) {
     constexpr std::uint64_t kMostExact = 1024;
+    constexpr std::size_t kBrackets = 20000;
     Json rows = Json::array();
     for (std::uint64_t k = 2; k <= 2 * kMostExact; k *= 2)
         for (const std::uint64_t n : {k, k + k / 2}) {
             if (n > kMostExact || n > factory.info().max_samples) continue;
-            const std::vector<double> all = points_of(factory, n, 4, kSeed), one = leading(all, 4, 1), two = leading(all, 4, 2);
+            const std::vector<double> all = points_of(factory, n, 4, kSeed), one = leading(all, 4, 1), two = leading(all, 4, 2), three = leading(all, 4, 3);
+            const StarBounds star3 = star_discrepancy_bounds({three, 3}, kBrackets), star4 = star_discrepancy_bounds({all, 4}, kBrackets);
             rows.push_back({{"n", n},
                             {"good", factory.info().good_counts.contains(n)},
                             {"star1", star_discrepancy({one, 1})},
                             {"star2", star_discrepancy({two, 2})},
+                            {"star3", {{"lo", star3.lower}, {"hi", star3.upper}}},
+                            {"star4", {{"lo", star4.lower}, {"hi", star4.upper}}},
                             {"l2star2", l2_star_discrepancy({two, 2})},
                             {"l2star4", l2_star_discrepancy({all, 4})},
                             {"centred2", centred_discrepancy({two, 2})},
@@ -163,8 +167,7 @@ Json rates(const SamplerFactory& factory) {
 Json card_of(const SamplerFactory& factory) {
     if (factory.info().max_dimensions < kDimensions)
         throw UsageError(fmt::format("a card draws {} dimensions; sampler '{}' has {}", kDimensions, factory.name(), factory.info().max_dimensions));
-    return {{"name", factory.name()},       {"info", json_of(factory.info())},        {"remark", factory.info().remark},
-            {"version", version_text()},    {"randomized", factory.randomized()},     {"seed", kSeed},
+    return {{"name", factory.name()},       {"info", json_of(factory.info())},        {"version", version_text()},    {"randomized", factory.randomized()},     {"seed", kSeed},
             {"pictures", pictures(factory)}, {"spectrum", spectrum(factory)},         {"discrepancies", discrepancies(factory)},
             {"quality", quality(factory)},  {"speed", speed(factory)},                {"rates", rates(factory)}};
 }

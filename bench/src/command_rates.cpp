@@ -36,6 +36,19 @@ void refuse_unknown(const std::vector<std::string>& names) {
     }
 }
 
+/// Choices worth a name.
+struct NamedSet {
+    const char* name;
+    std::vector<std::string> samplers, integrands;
+};
+const NamedSet& named_set(const std::string& name) {
+    static const std::vector<NamedSet> kSets{
+        {"joint-padded", {"sobol", "sobol-4d", "sobol-padded", "pmj02", "lhs", "random"}, {"addexp2", "prodlin4", "addexp6", "prodlin6"}}};
+    for (const NamedSet& set : kSets)
+        if (set.name == name) return set;
+    throw UsageError("unknown set '" + name + "'; sets: joint-padded");
+}
+
 std::string slope_text(const Rates& r) {
     if (!std::isfinite(r.slope)) return "exact";
     return std::isfinite(r.slope_error) ? fmt::format("{:.3f} +-{:.3f}", r.slope, 1.96 * r.slope_error) : fmt::format("{:.3f}", r.slope);
@@ -67,7 +80,13 @@ nlohmann::ordered_json json_of(const Rates& r) {
             {"hi", r.slope + 1.96 * r.slope_error}, {"errors", errors}};
 }
 
-int run_rates(const RatesCommand& command, const Registry& registry) {
+int run_rates(const RatesCommand& given, const Registry& registry) {
+    RatesCommand command = given;
+    if (!command.set.empty()) {
+        const NamedSet& set = named_set(command.set);
+        if (command.samplers.empty()) command.samplers = set.samplers;
+        if (command.integrands.empty()) command.integrands = set.integrands;
+    }
     refuse_unknown(command.integrands);
     std::vector<std::string> samplers = command.samplers;
     if (samplers.empty())

@@ -25,7 +25,7 @@ nlohmann::ordered_json json_of(const SamplerInfo& info) {
     for (const OptionInfo& o : info.options) options.push_back({{"name", o.name}, {"default", o.default_value}, {"values", o.values}, {"help", o.help}});
     nlohmann::ordered_json j = {{"name", info.name},      {"title", info.title},     {"paper", info.paper},       {"version", info.version},
                                 {"kind", text(info.kind)}, {"scope", text(info.scope)}, {"joint_group", info.joint == 0 ? nlohmann::ordered_json("all") : nlohmann::ordered_json(info.joint)},
-                                {"good_counts", info.good_counts.text()}, {"options", options}};
+                                {"good_counts", info.good_counts.text()}, {"remark", info.remark}, {"options", options}};
     j["max_dimensions"] = info.max_dimensions == std::numeric_limits<std::uint32_t>::max() ? nlohmann::ordered_json() : nlohmann::ordered_json(info.max_dimensions);
     j["max_samples"] = info.max_samples == std::numeric_limits<std::uint64_t>::max() ? nlohmann::ordered_json() : nlohmann::ordered_json(info.max_samples);
     return j;
@@ -43,6 +43,7 @@ int run_samplers(bool json, const Registry& registry) {
         fmt::print("    {}; good counts: {}; drawn jointly: {}; dimensions: {}; samples: {}\n", text(info.kind), info.good_counts.text(),
                    info.joint == 0 ? "all" : std::to_string(info.joint), limit(info.max_dimensions), limit(info.max_samples));
         fmt::print("    {}\n", info.paper);
+        if (!info.remark.empty()) fmt::print("    {}\n", info.remark);
         for (const OptionInfo& o : info.options) {
             std::string values;
             for (const std::string& v : o.values) values += (values.empty() ? "" : "|") + v;

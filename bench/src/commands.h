@@ -82,6 +82,7 @@ struct PointsCommand {
 struct RatesCommand {
     std::vector<std::string> samplers;           ///< empty: all, at their default options
     std::vector<std::string> integrands;         ///< names; empty: all
+    std::string set;                             ///< a named choice of both, where they are not given
     std::uint64_t most = 4096;                   ///< samples
     int replicates = 256;
     bool json = false;

@@ -36,6 +36,11 @@ const char* convert(const Json& json, std::uint64_t& value) {
     value = json.get<std::uint64_t>();
     return nullptr;
 }
+const char* convert(const Json& json, bool& value) {
+    if (!json.is_boolean()) return "true or false";
+    value = json.get<bool>();
+    return nullptr;
+}
 const char* convert(const Json& json, int& value) {
     if (!json.is_number_integer() || json.get<double>() < -0x1p31 || json.get<double>() >= 0x1p31) return "an integer of 32 bits";
     value = json.get<int>();
@@ -133,6 +138,11 @@ void check(const Experiment& e) {
         if (e.spp[i] == 0 || e.replicates[i] < 1) throw Error(where + ": spp and replicates must be 1 or more");
         if (i > 0 && e.spp[i] <= e.spp[i - 1]) throw Error(where + ": spp must increase");
     }
+    constexpr int kMostLayouts = 1000;
+    if (e.layouts < 1 || e.layouts > kMostLayouts)
+        throw Error(fmt::format("{}: \"layouts\" is {}; expected 1 (the layout as it stands) to {}", where, e.layouts, kMostLayouts));
+    if (e.layouts > 1 && (e.layouts < 3 || *std::min_element(e.replicates.begin(), e.replicates.end()) < 2))
+        throw Error(where + ": a spread over layouts needs 3 layouts or more (the first is the one that is compared with the others) and 2 replicates of each");
     if (e.reference.samplers.size() != 2 || e.reference.samplers[0] == e.reference.samplers[1])
         throw Error(where + ": \"reference\" needs two different samplers, one for each half");
     if (e.reference.replicates < 2 || e.reference.spp == 0) throw Error(where + ": a reference needs two replicates or more, and samples");
@@ -159,6 +169,8 @@ Experiment load_experiment(const std::string& name_or_file) {
     keys.read("samplers", e.samplers, true);
     keys.read("spp", e.spp, true);
     keys.read("replicates", e.replicates, true);
+    keys.read("own_counts", e.own_counts, false);
+    keys.read("layouts", e.layouts, false);
     keys.read("seed", e.seed, false);
     keys.read("relmse_targets", e.targets, false);
     keys.read("crop_spp", e.crop_spp, false);
@@ -178,6 +190,27 @@ Experiment load_experiment(const std::string& name_or_file) {
     keys.done();
     check(e);
     return e;
+}
+
+std::vector<std::uint64_t> own_counts(const Experiment& e, const SamplerInfo& info) {
+    using Rule = GoodCounts::Rule;
+    const std::uint64_t base = info.good_counts.rule == Rule::power ? info.good_counts.base : (info.good_counts.rule == Rule::square ? 4 : 0);
+    std::vector<std::uint64_t> counts;
+    for (std::uint64_t n = base; base > 1 && n <= e.spp.back(); n *= base)
+        if (n >= e.spp.front()) counts.push_back(n);
+    return counts;
+}
+
+std::vector<Count> counts_of(const Experiment& e, const SamplerInfo& info) {
+    std::vector<Count> counts;
+    for (std::size_t i = 0; i < e.spp.size(); ++i) counts.push_back({e.spp[i], e.replicates[i]});
+    if (!e.own_counts) return counts;
+    for (const std::uint64_t n : own_counts(e, info)) {
+        const auto next = std::lower_bound(counts.begin(), counts.end(), n, [](const Count& c, std::uint64_t spp) { return c.spp < spp; });
+        if (next != counts.end() && next->spp == n) continue;
+        counts.insert(next, {n, std::prev(next)->replicates});
+    }
+    return counts;
 }
 
 Experiment quick(Experiment e) {

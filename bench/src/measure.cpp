@@ -11,10 +11,13 @@
 
 namespace koksma {
 
-Row measure(const BenchScene& s, const SamplerFactory& sampler, const Reference& reference, std::uint64_t spp, int replicate, std::uint64_t base_seed, int threads,
+Row measure(const BenchScene& s, const SamplerFactory& sampler, const Reference& reference, const Trial& trial, std::uint64_t base_seed, int threads,
             std::vector<float>& image) {
-    const std::uint64_t seed = test_seed(base_seed, s.key.scene_hash, sampler.name(), spp, static_cast<std::uint64_t>(replicate));
-    const auto source = sampler.bind(sampling_plan(s.scene, s.plan, spp, seed));
+    const std::uint64_t spp = trial.spp;
+    const std::uint64_t base = trial.layout == 0 ? base_seed : hash_combine(base_seed, static_cast<std::uint64_t>(trial.layout));
+    const std::uint64_t seed = test_seed(base, s.key.scene_hash, sampler.name(), spp, static_cast<std::uint64_t>(trial.replicate));
+    std::unique_ptr<SampleSource> source = sampler.bind(sampling_plan(s.scene, s.plan, spp, seed));
+    if (trial.layout != 0) source = std::make_unique<PermutedSource>(std::move(source), s.plan.layout, *trial.order);
     RenderOptions options;
     options.threads = threads;
     const RenderResult result = render(s.scene, s.plan, *source, {s.what.crop, 0, spp}, options);
@@ -30,7 +33,8 @@ Row measure(const BenchScene& s, const SamplerFactory& sampler, const Reference&
     row.randomized = sampler.randomized();
     row.spp = spp;
     row.seed = seed;
-    row.replicate = replicate;
+    row.replicate = trial.replicate;
+    row.layout = trial.layout;
     row.film[0] = s.scene.film.width;
     row.film[1] = s.scene.film.height;
     const int crop[4] = {s.what.crop.x, s.what.crop.y, s.what.crop.width, s.what.crop.height};

@@ -4,16 +4,30 @@
 #include "bench_scene.h"
 #include "row.h"
 
+#include <koksma/sampling/permuted_source.h>
+
 namespace koksma {
 
-/// Renders one replicate and compares it with the reference. @param image  receives the render, shape (height, width, 3)
-[[nodiscard]] Row measure(const BenchScene& scene, const SamplerFactory& sampler, const Reference& reference, std::uint64_t spp, int replicate,
-                          std::uint64_t base_seed, int threads, std::vector<float>& image);
+/// One of an experiment's renders of a scene by a sampler.
+struct Trial {
+    std::uint64_t spp = 1;
+    int replicate = 0;
+    int layout = 0;
+    const SlotOrder* order = nullptr;  ///< of the layout; not read for layout 0
+};
 
-/// Samples of a pixel of one scene by one sampler, over all counts and replicates.
-[[nodiscard]] std::uint64_t paths_per_pixel(const Experiment& experiment);
+/// Renders one replicate and compares it with the reference. @param image  receives the render, shape (height, width, 3)
+[[nodiscard]] Row measure(const BenchScene& scene, const SamplerFactory& sampler, const Reference& reference, const Trial& trial, std::uint64_t base_seed,
+                          int threads, std::vector<float>& image);
+
+/// Renders and samples of a pixel of one scene by one sampler, over all counts, replicates and layouts.
+struct Amount {
+    std::uint64_t renders = 0, paths_per_pixel = 0;
+};
+[[nodiscard]] Amount amount_of(const Experiment& experiment, const SamplerFactory& sampler);
 
 /// Prints what an experiment would render, priced by small renders made now.
-void print_price(const Experiment& experiment, const std::vector<BenchScene>& scenes, const Registry& registry, int threads);
+void print_price(const Experiment& experiment, const std::vector<BenchScene>& scenes, const std::vector<std::unique_ptr<SamplerFactory>>& samplers, const Registry& registry,
+                 int threads);
 
 }  // namespace koksma

@@ -124,6 +124,7 @@ int run_program(int argc, char** argv) {
     c = app.add_subcommand("rates", "Measure how the error of samplers falls on integrands with known integrals");
     c->add_option("-s,--samplers", rates.samplers, "Samplers (default: all, at their default options)");
     c->add_option("-i,--integrands", rates.integrands, "Integrands by name (default: all)");
+    c->add_option("--set", rates.set, "A named choice of both: joint-padded (Sobol' whole, in fours and in pairs, on sums and products of dimensions)");
     c->add_option("-n,--most", rates.most, "Largest number of samples (default 4096)")->check(not_a_count);
     c->add_option("-r,--replicates", rates.replicates, "Independent replicates (default 256)")->check(CLI::Range(2, 1 << 20));
     c->add_flag("--json", rates.json, "Print JSON, with the error at every count");

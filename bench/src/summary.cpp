@@ -5,12 +5,14 @@
 #include <koksma/measure/ratio.h>
 #include <koksma/measure/rmse_estimate.h>
 #include <koksma/measure/slope.h>
+#include <koksma/measure/spread.h>
 #include <koksma/measure/time_to.h>
 #include <koksma/sampling/error.h>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <functional>
@@ -33,10 +35,11 @@ struct Point {
 };
 using Curve = std::map<std::uint64_t, Point>;  // by spp
 
-Curve curve_of(const std::vector<Row>& rows, const std::string& scene, const std::string& sampler) {
+/// @param layout  0: as the plan has it
+Curve curve_of(const std::vector<Row>& rows, const std::string& scene, const std::string& sampler, int layout = 0) {
     Curve curve;
     for (const Row& r : rows) {
-        if (r.scene != scene || r.sampler != sampler) continue;
+        if (r.scene != scene || r.sampler != sampler || r.layout != layout) continue;
         Point& p = curve[r.spp];
         p.spp = r.spp;
         p.mse.push_back(r.mse);
@@ -115,6 +118,63 @@ Json gain_json(const Curve& curve, bool randomized, const Curve& baseline) {
     return nullptr;
 }
 
+/// MSE of the baseline over that of a sampler at every count of the sampler. Where the baseline was not run, its error is taken from
+/// its neighbours on a straight line in log-log, and the comparison says so.
+/// @param own  the good counts of the sampler's own base
+Json comparisons_json(const Curve& curve, const Curve& baseline, const Json& own) {
+    Json out = Json::array();
+    for (const auto& [spp, p] : curve) {
+        const auto above = baseline.lower_bound(spp);
+        if (above == baseline.end() || (above->first != spp && above == baseline.begin())) continue;  // outside its range
+        const bool measured = above->first == spp;
+        Gain g;
+        if (measured) {
+            g = gain(p.mse, above->second.mse, kConfidence);
+        } else {
+            const auto below = std::prev(above);
+            const double from = std::log(static_cast<double>(below->first)), to = std::log(static_cast<double>(above->first));
+            g = interpolated_gain(p.mse, below->second.mse, above->second.mse, (std::log(static_cast<double>(spp)) - from) / (to - from), kConfidence);
+        }
+        out.push_back({{"spp", spp},
+                       {"own", std::find(own.begin(), own.end(), spp) != own.end()},
+                       {"mse_ratio", number(g.value)},
+                       {"lo", number(g.lo)},
+                       {"hi", number(g.hi)},
+                       {"how", measured ? "measured" : "interpolated"}});
+    }
+    return out;
+}
+
+/// For each count: the RMSE of the plan's layout, that of each permuted one, how far they lie apart, and whether the plan's is better
+/// than they are.
+Json layouts_json(const std::vector<Row>& rows, const std::string& scene, const std::string& sampler, int layouts) {
+    std::vector<Curve> curves;
+    for (int layout = 0; layout < layouts; ++layout) curves.push_back(curve_of(rows, scene, sampler, layout));
+    Json out = Json::array();
+    for (const auto& [spp, plan] : curves.front()) {
+        std::vector<std::vector<double>> groups;
+        Json each = Json::array();
+        for (const Curve& curve : curves) {
+            const auto at = curve.find(spp);
+            if (at == curve.end()) throw Error(fmt::format("the results hold no render of {} by {} at {} spp with layout {}", scene, sampler, spp, each.size()));
+            const Estimate rmse = rmse_estimate(at->second.mse, kConfidence).rmse;
+            each.push_back({{"rmse", number(rmse.value)}, {"lo", number(rmse.lo)}, {"hi", number(rmse.hi)}});
+            if (each.size() > 1) groups.push_back(at->second.mse);
+        }
+        const Spread s = spread(plan.mse, groups, kConfidence);
+        out.push_back({{"spp", spp},
+                       {"permuted", groups.size()},
+                       {"rmse", number(s.rmse)},
+                       {"lowest", number(s.lowest)},
+                       {"highest", number(s.highest)},
+                       {"spread", {{"value", number(s.between.value)}, {"lo", number(s.between.lo)}, {"hi", number(s.between.hi)}}},
+                       {"p_equal", number(s.p_equal)},
+                       {"plan_over_permuted", {{"value", number(s.first.value)}, {"lo", number(s.first.lo)}, {"hi", number(s.first.hi)}}},
+                       {"each", each}});
+    }
+    return out;
+}
+
 std::string label_of(const Json& header, const std::string& sampler) {
     for (const Json& s : header.at("samplers"))
         if (s.at("sampler") == sampler) return s.at("label");
@@ -169,6 +229,11 @@ Json summarize(const Json& header, const std::vector<Row>& rows) {
             const Json& crops = scene.at("crops");
             entry["crop"] = crops.contains(spec) ? crops.at(spec) : Json();
             entry["crop_spp"] = header.at("crop_spp");
+            const int layouts = header.value("layouts", 1);
+            entry["layouts"] = layouts > 1 && row->randomized ? layouts_json(rows, name, spec, layouts) : Json();
+            entry["any_count"] = header.value("any_count", false) && row->randomized && spec != baseline && !base_curve.empty()
+                                     ? comparisons_json(curve, base_curve, s.value("own_counts", Json::array()))
+                                     : Json();
             entry["error_map"] = nullptr;
             samplers.push_back(entry);
         }

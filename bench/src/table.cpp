@@ -4,6 +4,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <map>
+#include <string>
+#include <vector>
+
 namespace koksma {
 
 namespace {
@@ -29,10 +33,10 @@ std::string with_percent(const Json& value, const Json& lo, const Json& hi) {
 void print_scene(const Json& scene) {
     fmt::print("\n{}: crop {}x{} of {}x{}, {} dimensions, kernel {}\n", scene.at("name").get<std::string>(), scene.at("crop")[2].get<int>(), scene.at("crop")[3].get<int>(),
                scene.at("film")[0].get<int>(), scene.at("film")[1].get<int>(), scene.at("dimensions").get<int>(), scene.at("kernel").get<std::string>());
-    fmt::print("  {:<24}{:>5} {:>5}  {:<20}{:<20}{:>11}{:>11}{:>9}\n", "sampler", "spp", "runs", "RMSE", "relMSE", "CPU s", "wall s", "sampler");
+    fmt::print("  {:<28}{:>5} {:>5}  {:<20}{:<20}{:>11}{:>11}{:>9}\n", "sampler", "spp", "runs", "RMSE", "relMSE", "CPU s", "wall s", "sampler");
     for (const Json& s : scene.at("samplers"))
         for (const Json& p : s.at("points"))
-            fmt::print("  {:<24}{:>5} {:>5}  {:<20}{:<20}{:>11.4f}{:>11.4f}{:>7.1f} %\n", s.at("sampler").get<std::string>(), p.at("spp").get<std::uint64_t>(),
+            fmt::print("  {:<28}{:>5} {:>5}  {:<20}{:<20}{:>11.4f}{:>11.4f}{:>7.1f} %\n", s.at("sampler").get<std::string>(), p.at("spp").get<std::uint64_t>(),
                        p.at("replicates").get<int>(), with_percent(p.at("rmse"), p.at("rmse_lo"), p.at("rmse_hi")),
                        with_percent(p.at("relmse"), p.at("relmse_lo"), p.at("relmse_hi")), p.at("cpu_seconds").get<double>(), p.at("wall_seconds").get<double>(),
                        100.0 * p.at("sampler_share").get<double>());
@@ -50,9 +54,65 @@ void print_rates(const Json& scene) {
         std::string times;
         for (const Json& t : s.at("time_to"))
             times += fmt::format("{:>12}", t.at("seconds").is_null() ? "not reached" : fmt::format("{}{:.3g}", t.at("how") == "measured" ? "<= " : "", t.at("seconds").get<double>()));
-        fmt::print("  {:<10}{:<24}{:<26}{:<38}{}\n", scene.at("name").get<std::string>(), s.at("sampler").get<std::string>(),
+        fmt::print("  {:<10}{:<28}{:<26}{:<38}{}\n", scene.at("name").get<std::string>(), s.at("sampler").get<std::string>(),
                    slope.is_null() ? "-" : with_interval(slope.at("value"), slope.at("lo"), slope.at("hi"), "{:.3f}"), gain_text, times);
     }
+}
+
+/// How much of a result is luck of dimensions: a line a sampler and count.
+void print_layouts(const Json& scene) {
+    for (const Json& s : scene.at("samplers")) {
+        if (s.at("layouts").is_null()) continue;
+        for (const Json& l : s.at("layouts")) {
+            const Json& spread = l.at("spread");
+            const Json& plan = l.at("plan_over_permuted");
+            const auto percent = [](const Json& x) { return x.is_null() ? std::string("-") : fmt::format("{:.1f}", 100.0 * x.get<double>()); };
+            const auto rmse = [](const Json& x) { return x.is_null() ? std::string("below floor") : fmt::format("{:.3e}", x.get<double>()); };
+            std::string verdict;
+            if (!spread.at("lo").is_null() && spread.at("lo") == 0.0) verdict = "layouts not distinguishable";
+            fmt::print("  {:<10}{:<28}{:>5}  {:<12}{:<12}{:<12}{:<22}{:<24}{}\n", scene.at("name").get<std::string>(), s.at("sampler").get<std::string>(),
+                       l.at("spp").get<std::uint64_t>(), rmse(l.at("rmse")), rmse(l.at("lowest")), rmse(l.at("highest")),
+                       fmt::format("{} [{}, {}] %", percent(spread.at("value")), percent(spread.at("lo")), percent(spread.at("hi"))),
+                       with_interval(plan.at("value"), plan.at("lo"), plan.at("hi"), "{:.3f}"), verdict);
+        }
+    }
+}
+
+/// MSE gains over random at every count, samplers as columns.
+void print_counts(const Json& scene) {
+    constexpr int kWidth = 28;
+    std::map<std::uint64_t, std::vector<std::string>> lines;
+    std::vector<std::string> names;
+    for (const Json& s : scene.at("samplers")) {
+        if (s.at("any_count").is_null()) continue;
+        names.push_back(s.at("sampler").get<std::string>());
+        for (const Json& c : s.at("any_count")) {
+            std::vector<std::string>& line = lines[c.at("spp").get<std::uint64_t>()];
+            line.resize(names.size());
+            line.back() = with_interval(c.at("mse_ratio"), c.at("lo"), c.at("hi"), "{:.3g}") + (c.at("own").get<bool>() ? "*" : "") +
+                          (c.at("how") == "interpolated" ? "~" : "");
+        }
+    }
+    if (names.empty()) return;
+    fmt::print("\n{}: MSE gain over random [95 %] at any count; * a good count of the sampler's own base; ~ random was not run there, its error is\n"
+               "interpolated\n{:>7}  ", scene.at("name").get<std::string>(), "spp");
+    for (std::string name : names) {
+        if (name.size() + 1 > kWidth) name.resize(kWidth - 1);
+        fmt::print("{:<{}}", name, kWidth);
+    }
+    fmt::print("\n");
+    for (const auto& [spp, cells] : lines) {
+        fmt::print("{:>7}  ", spp);
+        for (const std::string& cell : cells) fmt::print("{:<{}}", cell.empty() ? "." : cell, kWidth);
+        fmt::print("\n");
+    }
+}
+
+bool any_layouts(const Json& summary) {
+    for (const Json& scene : summary.at("scenes"))
+        for (const Json& s : scene.at("samplers"))
+            if (!s.at("layouts").is_null()) return true;
+    return false;
 }
 
 }  // namespace
@@ -63,8 +123,16 @@ void print_tables(const Json& summary) {
     std::string targets;
     for (const Json& t : summary.at("scenes")[0].at("samplers")[0].at("time_to")) targets += fmt::format("{:>12}", fmt::format("{:g}", t.at("relmse").get<double>()));
     fmt::print("\nRates (log RMSE against log spp, 1 spp left out), MSE gain over random at the largest spp, CPU seconds to reach a relMSE of\n");
-    fmt::print("  {:<10}{:<24}{:<26}{:<38}{}\n", "scene", "sampler", "slope [95 %]", "gain [95 %]", targets);
+    fmt::print("  {:<10}{:<28}{:<26}{:<38}{}\n", "scene", "sampler", "slope [95 %]", "gain [95 %]", targets);
     for (const Json& scene : summary.at("scenes")) print_rates(scene);
+    for (const Json& scene : summary.at("scenes")) print_counts(scene);
+    if (any_layouts(summary)) {
+        fmt::print("\nLuck of dimensions: RMSE over permuted layouts (geometric mean, lowest, highest), their standard deviation without the replicates'\n"
+                   "noise, and the RMSE of the layout as planned over that of the permuted ones [95 %]\n");
+        fmt::print("  {:<10}{:<28}{:>5}  {:<12}{:<12}{:<12}{:<22}{:<24}\n", "scene", "sampler", "spp", "RMSE", "lowest", "highest", "spread [95 %]",
+                   "planned/permuted [95 %]");
+        for (const Json& scene : summary.at("scenes")) print_layouts(scene);
+    }
     if (const auto invalid = summary.at("invalid_samples").get<std::uint64_t>(); invalid > 0) fmt::print("\n{} invalid samples (they count as zero); koksma render --stats locates them\n", invalid);
 }
 

@@ -2,6 +2,8 @@
 
 #include <koksma/conformance/checks.h>
 
+#include "../samplers/matrix_file.h"
+
 #include <koksma_catch.h>
 
 using namespace koksma;
@@ -61,3 +63,18 @@ TEST_CASE("products of dimensions vary no more than independent ones", "[conform
 TEST_CASE("Owen scrambling is nested", "[conformance]") { run("nesting"); }
 TEST_CASE("samples of random are uncorrelated at small lags", "[conformance]") { run("lags"); }
 TEST_CASE("very many samples fill the interval evenly", "[conformance]") { run("histogram"); }
+
+/// Not among the subjects of `check all`: these need a file.
+TEST_CASE("matrices from files in odd bases keep every promise", "[conformance]") {
+    Registry registry;
+    register_samplers(registry);
+    for (const auto& [base, rows, columns] : {std::tuple{3u, 17u, 14u}, {5u, 11u, 10u}}) {
+        const test::File file(test::faure_text(base, base, rows, columns));
+        for (const Subject& subject : subjects(registry, "matrices:file=" + file.path + ",pad=2,randomize=owen"))
+            for (const Check& check : all_checks()) {
+                const Finding finding = check.run(subject);
+                INFO(subject.name() << ": " << check.name << " (" << check.says << "): " << finding.numbers);
+                CHECK(finding.passed);
+            }
+    }
+}

@@ -63,6 +63,61 @@ TEST_CASE("star discrepancies of known sequences are exact in one dimension", "[
         CHECK(std::abs(van_der_corput(3, 0, static_cast<std::size_t>(n)) - exact) < 1e-12);
 }
 
+namespace {
+
+/// Star discrepancy over all corners of the grid that the points' coordinates and 1 make: exact, n^d boxes.
+double star_of_grid(const PointSet& points) {
+    const std::size_t n = points.size(), d = points.dimensions;
+    double worst = 0;
+    std::vector<std::size_t> at(d, 0);
+    for (;;) {
+        std::vector<double> z(d);
+        double volume = 1;
+        for (std::size_t k = 0; k < d; ++k) volume *= z[k] = at[k] == n ? 1.0 : points[at[k]][k];
+        std::size_t open = 0, closed = 0;
+        for (std::size_t i = 0; i < n; ++i) {
+            bool in_open = true, in_closed = true;
+            for (std::size_t k = 0; k < d; ++k) in_open = in_open && points[i][k] < z[k], in_closed = in_closed && points[i][k] <= z[k];
+            open += in_open, closed += in_closed;
+        }
+        worst = std::max({worst, volume - static_cast<double>(open) / static_cast<double>(n), static_cast<double>(closed) / static_cast<double>(n) - volume});
+        std::size_t k = 0;
+        while (k < d && at[k] == n) at[k++] = 0;
+        if (k == d) return worst;
+        ++at[k];
+    }
+}
+
+}  // namespace
+
+TEST_CASE("bounds of the star discrepancy enclose it, and meet where there is time", "[measure]") {
+    for (const std::size_t n : {1u, 7u, 64u, 300u}) {
+        const auto points = sobol(n, 1, 2);
+        const double exact = star_discrepancy({points, 2});
+        double width = 2;
+        for (const std::size_t boxes : {0u, 10u, 1000u, 20000u}) {
+            const StarBounds b = star_discrepancy_bounds({points, 2}, boxes);
+            CAPTURE(n, boxes, b.lower, exact, b.upper);
+            CHECK(b.lower <= exact + 1e-15);
+            CHECK(exact <= b.upper + 1e-15);
+            CHECK(b.upper - b.lower <= width);
+            width = b.upper - b.lower;
+        }
+        CHECK(width < 0.003);
+    }
+    for (const auto& [n, d] : {std::pair{std::size_t{16}, std::size_t{3}}, {11, 4}, {23, 3}}) {
+        const auto points = sobol(n, 0, d);
+        const double exact = star_of_grid({points, d});
+        for (const std::size_t boxes : {100u, 20000u}) {
+            const StarBounds b = star_discrepancy_bounds({points, d}, boxes);
+            CAPTURE(n, d, boxes, b.lower, exact, b.upper);
+            CHECK(b.lower <= exact + 1e-15);
+            CHECK(exact <= b.upper + 1e-15);
+        }
+    }
+    CHECK_THROWS_AS(star_discrepancy_bounds({{}, 3}, 1), Error);
+}
+
 TEST_CASE("star discrepancies of known sequences are exact in two dimensions", "[measure]") {
     constexpr std::array<std::size_t, 5> kCounts{4, 8, 16, 32, 64};
     constexpr std::array kHammersley{1 / 2.0, 5 / 16.0, 11 / 64.0, 25 / 256.0, 55 / 1024.0};

@@ -12,7 +12,7 @@ from harness import ProgramTest
 from test_experiment import TINY
 
 ROW = {"kind": str, "scene": str, "scene_hash": str, "sampler": str, "sampler_version": int, "randomized": bool, "spp": int,
-       "replicate": int, "seed": int, "film": list, "crop": list, "max_depth": int, "rr_depth": int, "effects": list,
+       "replicate": int, "layout": int, "seed": int, "film": list, "crop": list, "max_depth": int, "rr_depth": int, "effects": list,
        "dimensions": int, "kernel": str, "mse": float, "mse_raw": float, "rmse": float, "relmse": float, "relmse_raw": float,
        "mean_rgb": list, "wall_seconds": float, "cpu_seconds": float, "sampler_seconds": float, "sampler_share": float,
        "paths": int, "rays": int, "invalid_samples": int, "threads": int, "estimator_version": int, "reference": str,
@@ -115,6 +115,38 @@ class Rows(BenchTest):
         self.refuses(2, ["bench", "tiny.json", "--scene", "bogus"], "no scene 'bogus'", "scene, other")
         self.refuses(2, ["bench", "tiny.json", "-s", "bogus"], "unknown sampler 'bogus'")
 
+    def test_layouts_are_measured_one_by_one_and_the_first_is_the_plan(self):
+        self.bench("--no-report")
+        plain = [(r["sampler"], r["spp"], r["replicate"], r["seed"], r["mse_raw"]) for r in self.lines()[1]]
+        self.write_experiment(layouts=4)
+        out = self.bench("--no-report").out
+        rows = self.lines()[1]
+        self.assertEqual(len(rows), 2 * (4 + 4) * 4)
+        self.assertEqual(len({r["seed"] for r in rows}), len(rows))
+        first = [(r["sampler"], r["spp"], r["replicate"], r["seed"], r["mse_raw"]) for r in rows if r["layout"] == 0]
+        self.assertEqual(first, plain)
+        self.assertIn("Luck of dimensions", out)
+        for sampler in self.summary()["scenes"][0]["samplers"]:
+            self.assertEqual([(p["spp"], p["replicates"]) for p in sampler["points"]], [(1, 4), (4, 4)])
+            for at in sampler["layouts"]:
+                self.assertEqual((at["permuted"], len(at["each"])), (3, 4))
+                if at["rmse"] is not None:
+                    self.assertLessEqual(at["lowest"], at["rmse"])
+                    self.assertLessEqual(at["spread"]["lo"], at["spread"]["hi"])
+
+    def test_comparisons_at_counts_that_random_was_not_run_at_are_interpolated(self):
+        self.write_experiment(spp=[3, 5, 11, 20], replicates=[4, 4, 4, 4], own_counts=True, samplers=["random", "sobol", "faure", "stratified"])
+        out = self.bench("--no-report").out
+        counts = {}
+        for row in self.lines()[1]:
+            counts.setdefault(row["sampler"].split(":")[0], set()).add(row["spp"])
+        self.assertEqual(counts, {"random": {3, 5, 11, 20}, "sobol": {3, 4, 5, 8, 11, 16, 20}, "faure": {3, 5, 11, 20}, "stratified": {3, 4, 5, 11, 16, 20}})
+        at = {c["spp"]: c for s in self.summary()["scenes"][0]["samplers"] if s["sampler"].startswith("sobol") for c in s["any_count"]}
+        self.assertEqual({spp: (c["how"], c["own"]) for spp, c in at.items()},
+                         {3: ("measured", False), 4: ("interpolated", True), 5: ("measured", False), 8: ("interpolated", True),
+                          11: ("measured", False), 16: ("interpolated", True), 20: ("measured", False)})
+        self.assertRegex(out, r"\n +8 .*\*~")
+
     def test_quick_is_less(self):
         self.write_experiment(spp=[1, 4, 128], replicates=[16, 2, 4])
         self.bench("--no-report", "--quick")
@@ -129,6 +161,20 @@ class Rows(BenchTest):
         self.assertEqual(self.files(), before)
         self.assertRegex(out, r"\nscene +16 +2560 ")
         self.assertIn("must be made", out)
+
+
+
+class JointAndPadded(BenchTest):
+    """With 8 samples the light of scene penumbra, dimensions 2 and 3, is better served by a padded pair than by the joint sequence."""
+
+    def test_padded_beats_joint_behind_an_edge(self):
+        scenes = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scenes")
+        self.write_experiment(scenes=[{"file": os.path.join(scenes, "penumbra.xml"), "crop": [264, 336, 64, 64]}], samplers=["random", "sobol", "sobol-padded"],
+                              spp=[8, 16], replicates=[8, 8], reference={"samplers": ["sobol:randomize=owen", "halton:randomize=owen"], "replicates": 8, "spp": 2048})
+        self.bench("--no-report")
+        rmse = {(s["sampler"].split(":")[0], p["spp"]): p for s in self.summary()["scenes"][0]["samplers"] for p in s["points"]}
+        self.assertLess(1.2 * rmse["sobol-padded", 8]["rmse_hi"], rmse["sobol", 8]["rmse_lo"])
+        self.assertLess(rmse["sobol", 16]["rmse_hi"], 1.05 * rmse["sobol-padded", 16]["rmse_lo"])  # a tie, where that pair is a net too
 
 
 class References(BenchTest):

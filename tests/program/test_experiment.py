@@ -49,7 +49,7 @@ class Experiments(ProgramTest):
 
     def test_wrong_types(self):
         for key, value in {"title": 3, "scenes": {}, "samplers": "sobol", "spp": 4, "replicates": "4", "seed": "x", "relmse_targets": 0.1,
-                           "crop_spp": 1.5, "picture_size": "big", "picture_spp": True}.items():
+                           "layouts": 1.5, "own_counts": 1, "crop_spp": 1.5, "picture_size": "big", "picture_spp": True}.items():
             self.refuses_change(lambda e: e.update({key: value}), "tiny.json", f'"{key}"', "expected")
         self.refuses_change(lambda e: e.update(reference=3), "reference", "expected an object")
         self.refuses_change(lambda e: e.update(scenes=[3]), "scenes[0]", "expected an object")
@@ -68,6 +68,10 @@ class Experiments(ProgramTest):
         self.refuses_change(lambda e: e.update(picture_size=0), "picture_size")
         self.refuses_change(lambda e: e["reference"].update(replicates=1), "two replicates")
         self.refuses_change(lambda e: e["reference"].update(samplers=["sobol", "sobol"]), "two different samplers")
+        self.refuses_change(lambda e: e.update(layouts=0), '"layouts" is 0')
+        self.refuses_change(lambda e: e.update(layouts=2), "3 layouts or more")
+        self.refuses_change(lambda e: e.update(layouts=3, replicates=[4, 1]), "2 replicates")
+        self.refuses_change(lambda e: e.update(layouts=1001), '"layouts" is 1001', "1000")
         self.refuses_change(lambda e: e.update(samplers=["bogus"]), "unknown sampler 'bogus'", code=2)
 
     def test_crops(self):

@@ -7,6 +7,19 @@ import unittest
 from harness import ProgramTest
 
 
+class Samplers(ProgramTest):
+    def test_eighteen_and_what_each_says_of_itself(self):
+        all_of_them = self.succeeds("samplers", "--json").json()
+        self.assertGreaterEqual(len(all_of_them), 18)
+        for sampler in all_of_them:
+            self.assertLessEqual({"name", "options", "kind", "scope", "joint_group", "good_counts", "max_dimensions", "max_samples", "remark"}, set(sampler))
+        remarks = [s["remark"] for s in all_of_them if s["remark"]]
+        text = self.succeeds("samplers").out
+        self.assertIn("finite tables", remarks)
+        for remark in remarks:
+            self.assertIn("    " + remark + "\n", text)
+
+
 class Check(ProgramTest):
     def test_a_line_a_check(self):
         lines = self.succeeds("check", "random").out.splitlines()
@@ -63,6 +76,11 @@ class Rates(ProgramTest):
         self.assertEqual([e["n"] for e in slopes["sobol"]["errors"]], [64, 128, 256, 512, 1024, 2048, 4096])
         self.assertIn("prodlin6", self.succeeds(*arguments).out)
 
+    def test_named_set(self):
+        names = [s["sampler"].split(":")[0] for s in self.succeeds("rates", "--set", "joint-padded", "-r", "8", "-n", "256", "--json").json()]
+        self.assertEqual(names, ["sobol", "sobol-4d", "sobol-padded", "pmj02", "lhs", "random"])
+        self.refuses(2, ["rates", "--set", "bogus"], "unknown set 'bogus'", "joint-padded")
+
     def test_refusals(self):
         self.refuses(2, ["rates", "-i", "bogus"], "unknown integrand 'bogus'", "gauss2")
         self.refuses(2, ["rates", "-s", "sobol:randomize=none"], "not randomized")
@@ -76,6 +94,11 @@ class Card(ProgramTest):
         pairs = {(p["a"], p["b"]): p["t"] for p in card["quality"]["pairs"]}
         self.assertEqual((pairs[0, 1], pairs[0, 7], pairs[1, 7]), (0, 3, 2))
         self.assertEqual(sum(card["quality"]["histogram"][3]["count"]), 70)
+        for row in card["discrepancies"]:
+            self.assertLessEqual(row["star1"], row["star2"] + 1e-12)
+            for smaller, bounds in ((row["star2"], row["star3"]), (row["star3"]["lo"], row["star4"])):  # a projection is no worse
+                self.assertLessEqual(bounds["lo"], bounds["hi"])
+                self.assertLessEqual(smaller, bounds["hi"] + 1e-12)
         for row in card["discrepancies"]:
             if row["good"] and row["n"] >= 64:
                 self.assertLess(row["l2star2"], row["random2"])

@@ -1,4 +1,5 @@
 #include "film_draw.h"
+#include "matrix_file.h"
 #include "refusal.h"
 
 #include <samplers/matrices.h>
@@ -7,45 +8,12 @@
 #include <koksma_catch.h>
 
 #include <cmath>
-#include <cstdio>
-#include <filesystem>
-#include <fstream>
 #include <string>
 
 using namespace koksma;
 using namespace koksma::test;
 
 namespace {
-
-/// The Faure sequence (Pascal matrices to the power of the dimension) in base b, as a file.
-std::string faure_text(std::uint32_t b, std::uint32_t dimensions, std::uint32_t rows, std::uint32_t columns) {
-    std::string text = "# Faure\nkoksma-matrices 1\nbase " + std::to_string(b) + "\ndimensions " + std::to_string(dimensions) + "\nrows " +
-                       std::to_string(rows) + "   # of each matrix\ncolumns " + std::to_string(columns) + "\n";
-    std::vector<std::vector<std::uint32_t>> binomial(columns, std::vector<std::uint32_t>(rows, 0));
-    for (std::uint32_t c = 0; c < columns; ++c)
-        for (std::uint32_t r = 0; r <= c && r < rows; ++r) binomial[c][r] = r == 0 || r == c ? 1 : (binomial[c - 1][r - 1] + binomial[c - 1][r]) % b;
-    for (std::uint32_t d = 0; d < dimensions; ++d) {
-        text += "\nmatrix " + std::to_string(d) + "\n";
-        for (std::uint32_t r = 0; r < rows; ++r, text += "\n")
-            for (std::uint32_t c = 0; c < columns; ++c) {
-                std::uint32_t entry = binomial[c][r];
-                for (std::uint32_t k = r; k < c; ++k) entry = entry * d % b;
-                text += std::to_string(entry) + " ";
-            }
-    }
-    return text;
-}
-
-class File {
-public:
-    explicit File(const std::string& text) : path((std::filesystem::temp_directory_path() / "koksma_test_matrices=a:b.txt").string()) {
-        std::ofstream(path) << text;
-    }
-    ~File() { std::remove(path.c_str()); }
-    File(const File&) = delete;
-    File& operator=(const File&) = delete;
-    const std::string path;
-};
 
 std::string refused(const std::string& text) {
     return refusal([&] { (void)GeneratorMatrices::parse(text, "m"); });

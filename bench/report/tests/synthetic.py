@@ -89,7 +89,7 @@ def _sampler(spec, error: float, slope: float, seconds: float, rng: random.Rando
     return {"sampler": name, "label": label, "randomized": True, "points": points,
             "slope": {"value": slope, "lo": slope - 0.03, "hi": slope + 0.03, "spp_from": 4, "spp_to": 256},
             "time_to": [_time_to(target, points) for target in (1e-1, 1e-2, 1e-3)],
-            "gain_vs_random": None, "crop": None, "crop_spp": None, "error_map": None}
+            "gain_vs_random": None, "crop": None, "crop_spp": None, "error_map": None, "layouts": None, "any_count": None}
 
 
 def _time_to(target: float, points: list[dict]) -> dict:

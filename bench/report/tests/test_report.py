@@ -98,6 +98,28 @@ class WhatThePageShows(ReportTest):
         self.assertIn("./koksma bench", page.text)
         self.assertIn("abc1234", page.text)
 
+    def test_layouts_and_counts_are_shown_where_an_experiment_has_them(self):
+        plain = self.page()
+        for words in ("Luck of dimensions", "Any number of samples"):
+            self.assertNotIn(words, plain)
+        for k, sampler in enumerate(self.scene["samplers"]):
+            spread = {"value": 0.1 * k, "lo": 0.05 * k, "hi": 0.2 * k + 0.01}
+            sampler["layouts"] = [{"spp": 16, "permuted": 3, "rmse": 0.02, "lowest": 0.018, "highest": 0.023, "spread": spread, "p_equal": 0.5,
+                                   "plan_over_permuted": {"value": 0.876, "lo": 0.8, "hi": 0.95},
+                                   "each": [{"rmse": 0.02 + 0.001 * i, "lo": 0.019, "hi": 0.025} for i in range(4)]}]
+            if k > 0:
+                sampler["any_count"] = [{"spp": spp, "own": spp == 8, "mse_ratio": 2.0 + spp, "lo": 1.5, "hi": 3.0 + spp,
+                                         "how": "interpolated" if spp == 8 else "measured"} for spp in (5, 8, 11)]
+        page = Page(self.page())
+        self.assertIsNone(page.unbalanced)
+        self.assertEqual(len(page.ids), len(set(page.ids)), "an id occurs twice")
+        text = " ".join(page.text.split())
+        for words in ("Luck of dimensions", "0.876", "not distinguishable", "Any number of samples", "own interpolated"):
+            self.assertIn(words, text)
+        self.scene["samplers"][1]["any_count"][0]["how"] = "guessed"
+        (self.directory / "report.html").unlink()
+        self.refuse_summary('"guessed"', '"interpolated"')
+
     def test_the_page_stands_alone_and_is_well_formed(self):
         self.add_pictures()
         text = self.page()

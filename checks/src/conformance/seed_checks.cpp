@@ -169,11 +169,15 @@ Finding nesting(const Subject& s) {
 }
 
 /// The exclusive or of two samples of one pixel, in two dimensions of different sets: independent, whatever its distribution in
-/// each of them. (Within a set it need not be: one order may serve both. A set is a slot of two, or as many as are drawn jointly.) Sees a scramble that two slots share behind different orders, where no value and no variance shows it.
+/// each of them. (Within a set it need not be: one order may serve both. A set is a slot of two, or as many as are drawn jointly.) Sees
+/// a scramble that two slots share behind different orders, where no value and no variance shows it.
+/// Where sets are filled with consecutive slots (faure) their ends depend on the layout: then only dimensions so far apart that no
+/// set holds both are compared.
 Finding differences(const Subject& s) {
     if (!s.randomized) return not_applicable("not randomized");
-    if (s.promises.joint_across_slots) return not_applicable("slots are not independent of each other");
     const std::size_t set = std::max<std::size_t>(2, s.info().joint);
+    const bool across = s.promises.joint_across_slots;
+    if (across && set >= OverSeeds::kDimensions) return not_applicable("one set holds all dimensions");
     const std::uint64_t spp = good_count(s, 64);
     const std::vector<SampleId> ids = some_samples(spp);
     const OverSeeds u(s, spp, ids);
@@ -182,7 +186,7 @@ Finding differences(const Subject& s) {
         for (std::size_t j = i + 1; j < std::min<std::size_t>(ids.size(), 4); ++j)
             for (std::size_t a = 0; a < OverSeeds::kDimensions; ++a)
                 for (std::size_t b = a + 1; b < OverSeeds::kDimensions; ++b) {
-                    if (a / set == b / set) continue;
+                    if (across ? b - a < set : a / set == b / set) continue;
                     Table table(8);
                     for (std::size_t r = 0; r < kSeeds; ++r)
                         table.add((bits24(u(r, i, a)) ^ bits24(u(r, j, a))) >> 21, (bits24(u(r, i, b)) ^ bits24(u(r, j, b))) >> 21);

@@ -40,6 +40,7 @@ void named_promises(const std::string& name, const std::string& randomize, Promi
         p.net_of_pairs = p.nested_scrambling = p.multiples_of_2_24 = true;
     }
     if (name == "sobol-global" || name == "halton-global" || name == "matrices" || name == "points") p.multiples_of_2_24 = true;
+    p.values_in_finest_strata = name == "matrices";
     if (name == "points") p.strata_of_set = false;  // whatever the file has
 }
 

@@ -39,6 +39,7 @@ struct Promises {
     bool nested_scrambling = false;    ///< in those bases, as by Owen 1995: digits below the first differing one are independent
     bool joint_across_slots = false;   ///< consecutive slots are drawn jointly, in an order of their own: what two of them share depends on it
     bool multiples_of_2_24 = false;    ///< all values are multiples of 2^-24: converted from integers without rounding
+    bool values_in_finest_strata = false;  ///< a value lies in its stratum of the finest b^-m that is a float's step or more, so some floats are likelier than others
     bool independent_samples = false;  ///< samples of one pixel are independent of each other (the lag check applies)
     std::span<const ReferencePoint> reference_points{};  ///< of a sequence that is not randomized
 };

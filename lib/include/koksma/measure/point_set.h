@@ -24,6 +24,20 @@ struct PointSet {
 /// Bundschuh and Zhu 1993, "A method for exact calculation of the discrepancy of low-dimensional finite point sets", theorem 1
 [[nodiscard]] double star_discrepancy(const PointSet& points);
 
+/// What the star discrepancy is known to lie between, ends included.
+struct StarBounds {
+    double lower = 0, upper = 0;
+};
+
+/// Bounds of the star discrepancy in any number of dimensions. Boxes [0, z) are enclosed in brackets low <= z <= high, where
+/// share[0, low) - vol(high) and share[0, high] - vol(low) bound what any of them can have; corners give what some do have. The widest
+/// bracket is halved until `boxes` were, or none can hold more than what was found: then the two bounds are equal, and exact.
+/// @param boxes  how many brackets are halved; each costs as many comparisons as there are numbers in the points
+/// @throws Error if there is no point
+/// Source: the enclosure is Thiemard 2001, "An algorithm to compute bounds for the star discrepancy", J. Complexity 17(4), theorem 1;
+/// that the widest bracket is halved (best first), instead of a partition fixed beforehand, is ours
+[[nodiscard]] StarBounds star_discrepancy_bounds(const PointSet& points, std::size_t boxes);
+
 /// L2 discrepancies: root mean square differences over boxes at the origin (star), at the nearest corner (centred), around
 /// the torus (wrap-around), and the mixture of the last two. Zero points: NaN.
 /// Source: Warnock 1972 (star); Hickernell 1998, "A generalized discrepancy and quadrature error bound" (centred, wrap-around);

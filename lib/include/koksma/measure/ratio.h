@@ -37,4 +37,10 @@ struct Gain {
 /// @throws             Error if confidence is outside (0, 1)
 [[nodiscard]] Gain gain(std::span<const double> a, std::span<const double> b, double confidence = 0.95);
 
+/// The same where B was not measured at A's number of samples but below and above it: B's error there is taken to lie on a straight
+/// line in log-log. The interval does not speak of how far it does not.
+/// @param  weight  of `above`, (log n - log below) / (log above - log below), in [0, 1]
+[[nodiscard]] Gain interpolated_gain(std::span<const double> a, std::span<const double> below, std::span<const double> above, double weight,
+                                     double confidence = 0.95);
+
 }  // namespace koksma
