@@ -54,6 +54,17 @@ struct PackBase {
     [[nodiscard]] static HWY_INLINE Self load_any(const T* p) { return hn::LoadU(Tag<T>(), p); }
     HWY_INLINE void store(T* aligned) const { hn::Store(raw, Tag<T>(), aligned); }
     HWY_INLINE void store_any(T* p) const { hn::StoreU(raw, Tag<T>(), p); }
+    /// Stores the first n lanes and touches nothing behind them.
+    HWY_INLINE void store_first(std::size_t n, T* p) const {
+        if (n >= static_cast<std::size_t>(kLanes)) return store_any(p);
+#if HWY_TARGET == HWY_AVX3
+        hn::BlendedStore(raw, hn::FirstN(Tag<T>(), n), Tag<T>(), p);
+#else
+        alignas(64) T lanes[kLanes];
+        store(lanes);
+        for (std::size_t i = 0; i < n; ++i) p[i] = lanes[i];
+#endif
+    }
     /// Stores the lanes of the mask one after the other. May write up to a whole pack: leave room.
     HWY_INLINE std::size_t compress_store(Mask m, T* p) const {
         return hn::CompressStore(raw, hn::RebindMask(Tag<T>(), m.raw), Tag<T>(), p);
@@ -137,6 +148,45 @@ template <int n>
 [[nodiscard]] HWY_INLINE UInt32 shift_right(UInt32 x) {
     return hn::ShiftRight<n>(x.raw);
 }
+/// x >> n, all lanes by one number.
+[[nodiscard]] HWY_INLINE UInt32 shift_right(UInt32 x, int n) { return hn::ShiftRightSame(x.raw, n); }
+[[nodiscard]] HWY_INLINE UInt32 min(UInt32 a, UInt32 b) { return hn::Min(a.raw, b.raw); }
+/// table[index] of each lane, from one pack to another. Every index is below kLanes.
+[[nodiscard]] HWY_INLINE UInt32 lookup(UInt32 table, UInt32 index) {
+    return hn::TableLookupLanes(table.raw, hn::IndicesFromVec(Tag<std::uint32_t>(), index.raw));
+}
+/// Reverses the order of the bits of each lane; and the same, shifted right by 8.
+#if HWY_TARGET == HWY_SCALAR
+[[nodiscard]] HWY_INLINE UInt32 reverse_bits(UInt32 x) {
+    std::uint32_t bits = hn::GetLane(x.raw), reversed = 0;
+    for (int i = 0; i < 32; ++i, bits >>= 1) reversed = (reversed << 1) | (bits & 1u);
+    return reversed;
+}
+[[nodiscard]] HWY_INLINE UInt32 reverse_bits_24(UInt32 x) { return shift_right<8>(reverse_bits(x)); }
+#else
+namespace detail {
+/// The same 16 bytes in every block of 16.
+[[nodiscard]] HWY_INLINE hn::VFromD<Tag<std::uint32_t>> blocks(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+    alignas(16) const std::uint32_t words[4] = {a, b, c, d};
+    return hn::LoadDup128(Tag<std::uint32_t>(), words);
+}
+/// @param bytes  where each byte comes from, within its block of 16; 0x80: zero
+[[nodiscard]] HWY_INLINE UInt32 reverse_bits(UInt32 x, hn::VFromD<Tag<std::uint32_t>> bytes) {
+    const auto low = hn::Set(Tag<std::uint32_t>(), 0x0f0f0f0fu), moved = hn::TableLookupBytes(x.raw, bytes);
+    // The reversals of the numbers 0 .. 15, as high and as low halves of a byte.
+    const auto high_of_low = blocks(0xc0408000u, 0xe060a020u, 0xd0509010u, 0xf070b030u);
+    const auto low_of_high = blocks(0x0c040800u, 0x0e060a02u, 0x0d050901u, 0x0f070b03u);
+    return hn::Or(hn::TableLookupBytes(high_of_low, hn::And(moved, low)),
+                  hn::TableLookupBytes(low_of_high, hn::And(hn::ShiftRight<4>(moved), low)));
+}
+}  // namespace detail
+[[nodiscard]] HWY_INLINE UInt32 reverse_bits(UInt32 x) {
+    return detail::reverse_bits(x, detail::blocks(0x00010203u, 0x04050607u, 0x08090a0bu, 0x0c0d0e0fu));
+}
+[[nodiscard]] HWY_INLINE UInt32 reverse_bits_24(UInt32 x) {
+    return detail::reverse_bits(x, detail::blocks(0x80000102u, 0x80040506u, 0x8008090au, 0x800c0d0eu));
+}
+#endif
 /// first, first + 1, ...
 [[nodiscard]] HWY_INLINE Int32 iota(std::int32_t first) { return hn::Iota(Tag<std::int32_t>(), first); }
 
