@@ -99,9 +99,13 @@ struct SampleBlock {
     /// How many of a pack's lanes are samples.
     [[nodiscard]] HWY_INLINE std::size_t lanes(std::size_t i) const { return count - i; }
     /// What a table has for the pixels of the samples i, i + 1, ..
-    [[nodiscard]] HWY_INLINE UInt32 of_pixel(const PixelTable& table, std::size_t i) const {
-        return lookup(UInt32::load_any(table.of + first[i / kPack]), UInt32::load(lane + i));
+    [[nodiscard]] HWY_INLINE UInt32 of_pixel(const PixelTable& table, std::size_t i) const { return of_pixel(table.of, i); }
+    [[nodiscard]] HWY_INLINE KeyPack of_pixel(const PixelKeyArray& table, std::size_t i) const { return {of_pixel(table.k0, i), of_pixel(table.k1, i)}; }
+    [[nodiscard]] HWY_INLINE UInt32 of_pixel(const std::uint32_t* table, std::size_t i) const {
+        return lookup(UInt32::load_any(table + first[i / kPack]), UInt32::load(lane + i));
     }
+    /// The key of a sample's pixel.
+    [[nodiscard]] HWY_INLINE Key key_of(std::size_t i) const { return keys[first[i / kPack] + lane[i]]; }
     /// keyed_hash(key of the pixel, counter) for each pixel.
     HWY_INLINE void hash_pixels(const PixelKeyArray& pixel_keys, std::uint32_t counter, PixelTable& out) const {
         for (std::size_t p = 0; p < pixels; p += kPack) keyed_hash(pixel_keys.pack(p), counter).store(out.of + p);
@@ -138,6 +142,20 @@ struct SampleBlock {
     x = x * (shift_right<16>(seed) | UInt32(1u));
     x = x ^ x * UInt32(0x05526c56u);
     return x ^ x * UInt32(0x53a22864u);
+}
+
+/// A 32-bit binary fraction.
+[[nodiscard]] HWY_INLINE Double fraction(UInt32 x) { return Double::of(x) * Double::of(0x1p-32); }
+
+/// The same bits as koksma::stratum_float (stratum.h) for each lane.
+[[nodiscard]] HWY_INLINE Float stratum_float(UInt32 stratum, std::uint32_t count, double scale, Double position) {
+    UInt32 k = as_uint(((Double::of(as_int(stratum)) + position) * Double::of(scale)).truncated());
+    // k * count - (stratum << 24) is small, so 32 bits are enough to compare.
+    Int32 above = as_int(k * UInt32(count) - shift_left<24>(stratum));
+    const Mask low = above < Int32(0);
+    k = k + select(low, UInt32(1u), UInt32(0u));
+    above = above + select(low, Int32(static_cast<std::int32_t>(count)), Int32(0));
+    return unit_float24(k - select(above > Int32((1 << 24) - 1), UInt32(1u), UInt32(0u)));
 }
 
 KOKSMA_MATHS_END

@@ -148,6 +148,28 @@ template <int n>
 [[nodiscard]] HWY_INLINE UInt32 shift_right(UInt32 x) {
     return hn::ShiftRight<n>(x.raw);
 }
+/// 16-bit numbers from any place on.
+[[nodiscard]] HWY_INLINE UInt32 load_widened(const std::uint16_t* p) {
+    const Tag<std::uint32_t> d;
+    return hn::PromoteTo(d, hn::LoadU(hn::Rebind<std::uint16_t, Tag<std::uint32_t>>(), p));
+}
+/// The high words of the products.
+[[nodiscard]] HWY_INLINE UInt32 product_high(UInt32 a, UInt32 b) {
+#if HWY_TARGET == HWY_SCALAR
+    return static_cast<std::uint32_t>((std::uint64_t{hn::GetLane(a.raw)} * hn::GetLane(b.raw)) >> 32);
+#else
+    const Tag<std::uint32_t> words;
+    const auto even = hn::BitCast(words, hn::MulEven(a.raw, b.raw));
+    const auto odd = hn::BitCast(words, hn::MulEven(hn::Shuffle2301(a.raw), hn::Shuffle2301(b.raw)));
+    return hn::OddEven(odd, hn::Shuffle2301(even));
+#endif
+}
+/// base[index] of each lane, which is below 2^30. Reads the entry behind it too.
+[[nodiscard]] HWY_INLINE UInt32 gather(const std::uint16_t* base, UInt32 index) {
+    const Tag<std::int32_t> d;
+    const auto two = hn::GatherOffset(d, reinterpret_cast<const std::int32_t*>(base), hn::BitCast(d, hn::Add(index.raw, index.raw)));
+    return hn::And(hn::BitCast(Tag<std::uint32_t>(), two), hn::Set(Tag<std::uint32_t>(), 0xffffu));
+}
 /// x >> n, all lanes by one number.
 [[nodiscard]] HWY_INLINE UInt32 shift_right(UInt32 x, int n) { return hn::ShiftRightSame(x.raw, n); }
 [[nodiscard]] HWY_INLINE UInt32 min(UInt32 a, UInt32 b) { return hn::Min(a.raw, b.raw); }
@@ -193,6 +215,31 @@ namespace detail {
 /// base[index] of each lane. Every lane's index must be readable, also where a mask will drop the value.
 [[nodiscard]] HWY_INLINE Float gather(const float* base, Int32 index) { return hn::GatherIndex(Tag<float>(), base, index.raw); }
 [[nodiscard]] HWY_INLINE Int32 gather(const std::int32_t* base, Int32 index) { return hn::GatherIndex(Tag<std::int32_t>(), base, index.raw); }
+
+/// As many doubles as there are lanes, in two registers.
+struct Double {
+    using Raw = hn::VFromD<Tag<double>>;
+#if HWY_TARGET == HWY_SCALAR
+    Raw low;
+    static HWY_INLINE Double of(double x) { return {hn::Set(Tag<double>(), x)}; }
+    static HWY_INLINE Double of(Int32 x) { return {hn::PromoteTo(Tag<double>(), x.raw)}; }
+    HWY_INLINE Int32 truncated() const { return hn::DemoteTo(Tag<std::int32_t>(), low); }
+    friend HWY_INLINE Double operator+(Double a, Double b) { return {hn::Add(a.low, b.low)}; }
+    friend HWY_INLINE Double operator*(Double a, Double b) { return {hn::Mul(a.low, b.low)}; }
+#else
+    using Half = hn::Half<Tag<std::int32_t>>;
+    Raw low, high;
+    static HWY_INLINE Double of(double x) { return {hn::Set(Tag<double>(), x), hn::Set(Tag<double>(), x)}; }
+    static HWY_INLINE Double of(Int32 x) {
+        return {hn::PromoteTo(Tag<double>(), hn::LowerHalf(Half(), x.raw)), hn::PromoteTo(Tag<double>(), hn::UpperHalf(Half(), x.raw))};
+    }
+    /// Of numbers that fit into 32 bits.
+    HWY_INLINE Int32 truncated() const { return hn::Combine(Tag<std::int32_t>(), hn::DemoteTo(Half(), high), hn::DemoteTo(Half(), low)); }
+    friend HWY_INLINE Double operator+(Double a, Double b) { return {hn::Add(a.low, b.low), hn::Add(a.high, b.high)}; }
+    friend HWY_INLINE Double operator*(Double a, Double b) { return {hn::Mul(a.low, b.low), hn::Mul(a.high, b.high)}; }
+#endif
+    static HWY_INLINE Double of(UInt32 x) { return of(as_int(x ^ UInt32(0x80000000u))) + of(0x1p31); }
+};
 
 template <class Real>
 struct Lanes;

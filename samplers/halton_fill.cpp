@@ -1,0 +1,214 @@
+#include "halton.h"
+
+#include "stratum.h"
+
+#include <algorithm>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "halton_fill.cpp"
+#include <koksma/simd/each_target.h>
+
+#include "fill_packs.h"
+
+KOKSMA_MATHS_BEGIN
+
+using Randomize = HaltonSampler::Randomize;
+
+/// One dimension of a block. All indices have at most `places` digits; their digits are taken from floats, exactly.
+struct HaltonRow {
+    const HaltonBase* base;
+    std::uint32_t dimension, places;
+    std::uint32_t power;  ///< base^places, at most 2^24
+};
+inline constexpr std::uint64_t kLargestIndex = (1u << 21) - 1;
+
+/// n / base, for integers below 2^21: (n + 1/2) / base is at least 1 / (2 base) from an integer, more than the rounding of the product.
+HWY_INLINE Float quotient(Float n, Float inverse_base) { return floor((n + Float(0.5f)) * inverse_base); }
+
+/// Digits of numerator / denominator, leading first.
+struct Division {
+    Float scale;  ///< 2^bits / denominator
+    UInt32 denominator, rest;
+    /// The next `bits` digits, at most 16.
+    template <int bits>
+    HWY_INLINE UInt32 next() {
+        // The product is off by less than 2^-7: it gives the digits or, a little below, one less.
+        UInt32 k = as_uint(to_int(to_real(as_int(rest)) * scale - Float(0x1p-6f)));
+        rest = shift_left<bits>(rest) - k * denominator;  // below twice the denominator: 32 bits are enough
+        const Mask more = !(rest < denominator);
+        k = k + select(more, UInt32(1u), UInt32(0u));
+        rest = rest - select(more, denominator, UInt32(0u));
+        return k;
+    }
+};
+
+/// none, cp: the radical inverse, without the randomisation by a hash of the block's pixels.
+template <bool shifted>
+HWY_INLINE void fill_inverse(const SampleBlock& block, const HaltonRow& row, const PixelTable& hash, float* out) {
+    const Float base = static_cast<float>(row.base->base), inverse = 1.0f / static_cast<float>(row.base->base);
+    const UInt32 power = row.power;
+    const Float scale = (shifted ? 0x1p16f : 0x1p12f) / static_cast<float>(row.power);
+    for (std::size_t i = 0; i < block.count; i += kPack) {
+        Float n = to_real(as_int(UInt32::load(block.low + i))), mirrored = 0.0f;
+        for (std::uint32_t place = 1; place < row.places; ++place) {
+            const Float q = quotient(n, inverse);
+            mirrored = mirrored * base + (n - q * base);
+            n = q;
+        }
+        Division division{scale, power, as_uint(to_int(mirrored * base + n))};
+        if constexpr (shifted) {
+            const UInt32 high = division.next<16>();
+            unit_float((shift_left<16>(high) | division.next<16>()) + block.of_pixel(hash, i)).store_first(block.lanes(i), out + i);
+        } else {
+            const UInt32 high = division.next<12>();
+            const UInt32 floor = shift_left<12>(high) | division.next<12>();
+            const UInt32 ceil = floor + select(division.rest == UInt32(0u), UInt32(0u), UInt32(1u));
+            unit_float24(min(ceil, UInt32(0xffffffu))).store_first(block.lanes(i), out + i);
+        }
+    }
+}
+
+/// The permutations of one place: permuted_digit (halton.h), taken apart.
+struct Permutation {
+    UInt32 zero, a, c, inverse_c;
+};
+HWY_INLINE UInt32 reciprocal(const HaltonBase& b, UInt32 x) {
+    constexpr std::uint32_t n = kLanes;
+    if (b.base > 4 * n) return gather(b.inverse, x);
+    // A few tables in registers are faster.
+    const UInt32 place = x & UInt32(n - 1);
+    UInt32 y = lookup(load_widened(b.inverse), place);
+    for (std::uint32_t first = n; first < b.base; first += n) y = select(x > UInt32(first - 1), lookup(load_widened(b.inverse + first), place), y);
+    return y;
+}
+HWY_INLINE Permutation permutation(const HaltonBase& b, UInt32 zeros, UInt32 weight, UInt32 hash) {
+    const UInt32 base = b.base, less = b.base - 1;
+    const UInt32 c = product_high(hash * less, base);
+    return {product_high(zeros * weight, base), product_high(hash, less) + UInt32(1u), c, reciprocal(b, c)};
+}
+/// x or x - n, for x below 2 n.
+HWY_INLINE UInt32 wrapped(UInt32 x, UInt32 n) { return min(x, x - n); }
+HWY_INLINE UInt32 image(const HaltonBase& b, UInt32 digit, const Permutation& p) {
+    const UInt32 base = b.base;
+    const UInt32 difference = wrapped(reciprocal(b, wrapped(digit + p.c, base)) + base - p.inverse_c, base);
+    const UInt32 y = p.a * difference + p.zero;
+    // y is below 2^26; the factor is a little too small, so the quotient is right or one less.
+    const UInt32 q = as_uint(to_int(to_real(as_int(y)) * Float((1.0f - 0x1p-20f) / static_cast<float>(b.base))));
+    return wrapped(y - q * base, base);
+}
+
+/// What a row needs of memory.
+struct HaltonScratch {
+    PixelKeyArray digit_keys, keys;  ///< of the pixels; of the pixels in this dimension
+    PixelTable hash, zero, a, c, inverse_c;
+    alignas(64) float rest[kBlockSamples];            ///< the digits of the index that are still to come
+    alignas(64) std::uint32_t cells[kBlockSamples];  ///< the images of those before
+};
+
+template <bool nested>
+HWY_INLINE void fill_scrambled(const SampleBlock& block, const HaltonRow& row, HaltonScratch& s, float* out) {
+    const HaltonBase& b = *row.base;
+    const UInt32 base = b.base;
+    const Float inverse = 1.0f / static_cast<float>(b.base);
+    for (std::size_t p = 0; p < block.pixels; ++p) s.keys.set(p, split_key(mix64(join_key(s.digit_keys[p]) ^ row.dimension)));
+
+    std::uint32_t weight = 1;
+    for (std::uint32_t place = 0; place < row.places; ++place, weight *= b.base) {
+        const bool last = place + 1 == row.places, of_pixels = place == 0 || !nested;
+        if (of_pixels)  // nothing before: a permutation for each pixel
+            for (std::size_t p = 0; p < block.pixels; p += kPack) {
+                const KeyPack key = s.keys.pack(p);
+                const Permutation f = permutation(b, keyed_hash(key, UInt32(kZeroImages)), UInt32(weight), keyed_hash(key, UInt32(place << 24)));
+                f.zero.store(s.zero.of + p), f.a.store(s.a.of + p), f.c.store(s.c.of + p), f.inverse_c.store(s.inverse_c.of + p);
+            }
+        for (std::size_t i = 0; i < block.count; i += kPack) {
+            const UInt32 low = UInt32::load(block.low + i);
+            const Float n = place == 0 ? to_real(as_int(low)) : Float::load(s.rest + i);
+            const Float q = last ? Float(0.0f) : quotient(n, inverse);
+            const UInt32 digit = as_uint(to_int(n - q * Float(static_cast<float>(b.base))));
+            UInt32 y;
+            if (of_pixels) {
+                y = image(b, digit, {block.of_pixel(s.zero, i), block.of_pixel(s.a, i), block.of_pixel(s.c, i), block.of_pixel(s.inverse_c, i)});
+            } else {
+                const KeyPack key = block.of_pixel(s.keys, i);
+                const UInt32 before = low - as_uint(to_int(n)) * UInt32(weight);
+                y = image(b, digit, permutation(b, keyed_hash(key, UInt32(kZeroImages) | before), UInt32(weight), keyed_hash(key, UInt32(place << 24) | before)));
+            }
+            if (place != 0) y = y + UInt32::load(s.cells + i) * base;
+            y.store(s.cells + i);
+            q.store(s.rest + i);
+        }
+    }
+
+    const UInt32 places = row.power, left = static_cast<std::uint32_t>(b.cells) / row.power, cells = static_cast<std::uint32_t>(b.cells);
+    if constexpr (!nested) block.hash_pixels(s.keys, kZeroImages, s.hash);
+    for (std::size_t i = 0; i < block.count; i += kPack) {
+        UInt32 zeros;
+        if constexpr (nested)
+            zeros = keyed_hash(block.of_pixel(s.keys, i), UInt32(kZeroImages) | UInt32::load(block.low + i));
+        else
+            zeros = block.of_pixel(s.hash, i);
+        const UInt32 cell = UInt32::load(s.cells + i) * left + product_high(zeros * places, left);
+        stratum_float(cell, static_cast<std::uint32_t>(b.cells), b.scale, fraction(zeros * cells)).store_first(block.lanes(i), out + i);
+    }
+}
+
+/// Base 2: digits are bits.
+HWY_INLINE void fill_base_2(const SampleBlock& block, Randomize randomize, const PixelTable& hash, float* out) {
+    for (std::size_t i = 0; i < block.count; i += kPack) {
+        const UInt32 index = UInt32::load(block.low + i);
+        Float x;
+        switch (randomize) {
+            case Randomize::none: x = unit_float_rev(index); break;
+            case Randomize::shift: x = unit_float(reverse_bits(index) + block.of_pixel(hash, i)); break;
+            case Randomize::digits: x = unit_float(reverse_bits(index) ^ block.of_pixel(hash, i)); break;
+            default: x = unit_float_rev(owen_hash_rev(index, block.of_pixel(hash, i)));
+        }
+        x.store_first(block.lanes(i), out + i);
+    }
+}
+
+void fill_row(const SampleBlock& block, const HaltonBase* bases, std::uint32_t dimension, Randomize randomize, HaltonScratch& s, float* out) {
+    const bool hashed = randomize == Randomize::shift || dimension == 0;
+    if (hashed && randomize != Randomize::none) block.hash_pixels(block.keys, dimension, s.hash);
+    if (dimension == 0) return fill_base_2(block, randomize, s.hash, out);
+
+    HaltonRow row{.base = bases + dimension, .dimension = dimension, .places = 1, .power = bases[dimension].base};
+    const std::uint64_t largest = block.any;  // or more
+    for (; row.power <= largest && row.power < (1u << 24); ++row.places) row.power *= row.base->base;
+    const bool scrambled = randomize == Randomize::digits || randomize == Randomize::owen;
+    if (largest > kLargestIndex || row.power > (scrambled ? row.base->cells : 1u << 24)) {
+        const Slot slot{.dimension = dimension};
+        for (std::size_t i = 0; i < block.count; ++i) out[i] = HaltonSampler::Point(bases, block.key_of(i), block.index[i], randomize).get_1d(slot);
+        return;
+    }
+    switch (randomize) {
+        case Randomize::none: return fill_inverse<false>(block, row, s.hash, out);
+        case Randomize::shift: return fill_inverse<true>(block, row, s.hash, out);
+        case Randomize::digits: return fill_scrambled<false>(block, row, s, out);
+        case Randomize::owen: return fill_scrambled<true>(block, row, s, out);
+    }
+}
+
+void fill_halton(const HaltonBase* bases, Randomize randomize, const PixelKeys& keys, std::span<const SampleId> samples, SlotRun run, float* out,
+                 std::size_t stride) {
+    const std::uint32_t first = run.front().dimension, count = dimension_count(run);
+    SampleBlock block;
+    HaltonScratch scratch;
+    for (std::size_t begin = 0; begin < samples.size(); begin += kBlockSamples, out += kBlockSamples) {
+        block.read(samples.subspan(begin, std::min(kBlockSamples, samples.size() - begin)), keys);
+        block.derive_pixel_keys(block.keys, kHaltonDigits, scratch.digit_keys);
+        for (std::uint32_t k = 0; k < count; ++k) fill_row(block, bases, first + k, randomize, scratch, out + k * stride);
+    }
+}
+
+KOKSMA_MATHS_END
+
+#if HWY_ONCE
+namespace koksma {
+HWY_EXPORT(fill_halton);
+void HaltonSampler::fill(std::span<const SampleId> samples, SlotRun run, float* out, std::size_t stride) const noexcept {
+    if (!run.empty()) HWY_DYNAMIC_DISPATCH(fill_halton)(bases_, randomize_, keys_, samples, run, out, stride);
+}
+}  // namespace koksma
+#endif
