@@ -5,7 +5,7 @@
 // (`per_pixel`), and handed to the samples by a permutation of lanes (`of_pixel`): sixteen samples of one pixel cost what
 // samples of sixteen pixels cost, and no pack ends where a pixel does.
 
-#include <koksma/sampling/sampler.h>
+#include "fill_points.h"
 
 #include <algorithm>
 #include <bit>
