@@ -158,4 +158,27 @@ struct SampleBlock {
     return unit_float24(k - select(above > Int32((1 << 24) - 1), UInt32(1u), UInt32(0u)));
 }
 
+/// table[i] of each lane, i below 16; the table is linear over xor, and table[0] is 0.
+[[nodiscard]] HWY_INLINE UInt32 linear_lookup(const std::uint32_t* table, UInt32 i) {
+    if constexpr (kLanes == 16) return lookup(UInt32::load_any(table), i);
+    // The lower bits of i in one lookup, each other bit by itself.
+    UInt32 x = lookup(UInt32::load_any(table), i & UInt32(kLanes - 1));
+    for (std::uint32_t bit = kLanes; bit < 16; bit *= 2) x = x ^ select((i & UInt32(bit)) == UInt32(bit), UInt32(table[bit]), UInt32(0u));
+    return x;
+}
+
+/// The same bits as koksma::shuffled_index (index_shuffle.h) for each lane, indices below 2^32.
+/// @param seed  keyed_hash of the pixel's key for orders
+[[nodiscard]] HWY_INLINE UInt32 shuffled_index(UInt32 index, UInt32 seed) { return reverse_bits(owen_hash_rev(reverse_bits(index), seed)); }
+[[nodiscard]] HWY_INLINE bool shuffles_in_packs(const SampleBlock& block) { return block.any >> 32 == 0; }
+
+/// The same bits as koksma::pascal_rev (sobol_pair.h) for each lane, indices below 2^32.
+[[nodiscard]] HWY_INLINE UInt32 pascal_rev(UInt32 index) {
+    index = index ^ (shift_right<1>(index) & UInt32(0x55555555u));
+    index = index ^ (shift_right<2>(index) & UInt32(0x33333333u));
+    index = index ^ (shift_right<4>(index) & UInt32(0x0f0f0f0fu));
+    index = index ^ (shift_right<8>(index) & UInt32(0x00ff00ffu));
+    return index ^ shift_right<16>(index);
+}
+
 KOKSMA_MATHS_END

@@ -74,7 +74,7 @@ struct Permutation {
 };
 HWY_INLINE UInt32 reciprocal(const HaltonBase& b, UInt32 x) {
     constexpr std::uint32_t n = kLanes;
-    if (b.base > 4 * n) return gather(b.inverse, x);
+    if (b.base > 4 * n) return gather_two(b.inverse, x) & UInt32(0xffffu);
     // A few tables in registers are faster.
     const UInt32 place = x & UInt32(n - 1);
     UInt32 y = lookup(load_widened(b.inverse), place);

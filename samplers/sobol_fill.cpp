@@ -11,15 +11,6 @@
 
 KOKSMA_MATHS_BEGIN
 
-/// row.entry_rev[i] of each lane, i below 16.
-HWY_INLINE UInt32 entries_rev(const SobolNibble& row, UInt32 i) {
-    if constexpr (kLanes == 16) return lookup(UInt32::load(row.entry_rev.data()), i);
-    // The table is linear: the lower bits of i in one lookup, each other bit by itself.
-    UInt32 x = lookup(UInt32::load(row.entry_rev.data()), i & UInt32(kLanes - 1));
-    for (std::uint32_t bit = kLanes; bit < 16; bit *= 2) x = x ^ select((i & UInt32(bit)) == UInt32(bit), UInt32(row.entry_rev[bit]), UInt32(0u));
-    return x;
-}
-
 /// As koksma::owen_tree.
 HWY_INLINE UInt32 tree_scrambled(UInt32 x, KeyPack key) {
     UInt32 y = (x ^ keyed_hash(key, UInt32(1u))) & UInt32(0x80000000u);
@@ -47,7 +38,7 @@ HWY_INLINE void fill_row(const SampleBlock& block, const SobolRow& row, const Pi
         UInt32 x = row.fixed_rev, digits = UInt32::load(block.low + i);
         for (int k = 0; k < (nibbles > 0 ? nibbles : row.nibbles); ++k) {
             if (k == 8) digits = UInt32::load(block.high + i);
-            x = x ^ entries_rev(row.matrix[k], digits & UInt32(15u));
+            x = x ^ linear_lookup(row.matrix[k].entry_rev.data(), digits & UInt32(15u));
             digits = shift_right<4>(digits);
         }
         if constexpr (randomize == digital_shift) x = x ^ block.of_pixel(keys[0], i);

@@ -164,11 +164,11 @@ template <int n>
     return hn::OddEven(odd, hn::Shuffle2301(even));
 #endif
 }
-/// base[index] of each lane, which is below 2^30. Reads the entry behind it too.
-[[nodiscard]] HWY_INLINE UInt32 gather(const std::uint16_t* base, UInt32 index) {
+/// base[index] in the low and base[index + 1] in the high half of each lane; the index is below 2^30.
+[[nodiscard]] HWY_INLINE UInt32 gather_two(const std::uint16_t* base, UInt32 index) {
     const Tag<std::int32_t> d;
     const auto two = hn::GatherOffset(d, reinterpret_cast<const std::int32_t*>(base), hn::BitCast(d, hn::Add(index.raw, index.raw)));
-    return hn::And(hn::BitCast(Tag<std::uint32_t>(), two), hn::Set(Tag<std::uint32_t>(), 0xffffu));
+    return hn::BitCast(Tag<std::uint32_t>(), two);
 }
 /// x >> n, all lanes by one number.
 [[nodiscard]] HWY_INLINE UInt32 shift_right(UInt32 x, int n) { return hn::ShiftRightSame(x.raw, n); }
