@@ -25,6 +25,13 @@ inline constexpr std::uint64_t kLargestIndex = (1u << 21) - 1;
 /// n / base, for integers below 2^21: (n + 1/2) / base is at least 1 / (2 base) from an integer, more than the rounding of the product.
 HWY_INLINE Float quotient(Float n, Float inverse_base) { return floor((n + Float(0.5f)) * inverse_base); }
 
+/// The integer nearest to x, for x in [0, 2^22]: the last bits of x + 2^23.
+HWY_INLINE UInt32 nearest(Float x) { return as_uint(bits_of(x + Float(0x1p23f))) & UInt32(0x7fffffu); }
+/// x or x + n, for an x in [-n, n) that wrapped.
+HWY_INLINE UInt32 not_negative(UInt32 x, UInt32 n) { return min(x, x + n); }
+/// x or x - n, for x below 2 n.
+HWY_INLINE UInt32 wrapped(UInt32 x, UInt32 n) { return min(x, x - n); }
+
 /// Digits of numerator / denominator, leading first.
 struct Division {
     Float scale;  ///< 2^bits / denominator
@@ -32,13 +39,12 @@ struct Division {
     /// The next `bits` digits, at most 16.
     template <int bits>
     HWY_INLINE UInt32 next() {
-        // The product is off by less than 2^-7: it gives the digits or, a little below, one less.
-        UInt32 k = as_uint(to_int(to_real(as_int(rest)) * scale - Float(0x1p-6f)));
-        rest = shift_left<bits>(rest) - k * denominator;  // below twice the denominator: 32 bits are enough
-        const Mask more = !(rest < denominator);
-        k = k + select(more, UInt32(1u), UInt32(0u));
-        rest = rest - select(more, denominator, UInt32(0u));
-        return k;
+        // The product is off by less than 2^-7: rounded, it gives the digits or one more.
+        const UInt32 k = nearest(to_real(as_int(rest)) * scale);
+        rest = shift_left<bits>(rest) - k * denominator;  // between -denominator and denominator: 32 bits are enough
+        const Mask more = rest > UInt32(0x7fffffffu);
+        rest = not_negative(rest, denominator);
+        return k - select(more, UInt32(1u), UInt32(0u));
     }
 };
 
@@ -86,15 +92,12 @@ HWY_INLINE Permutation permutation(const HaltonBase& b, UInt32 zeros, UInt32 wei
     const UInt32 c = product_high(hash * less, base);
     return {product_high(zeros * weight, base), product_high(hash, less) + UInt32(1u), c, reciprocal(b, c)};
 }
-/// x or x - n, for x below 2 n.
-HWY_INLINE UInt32 wrapped(UInt32 x, UInt32 n) { return min(x, x - n); }
 HWY_INLINE UInt32 image(const HaltonBase& b, UInt32 digit, const Permutation& p) {
     const UInt32 base = b.base;
     const UInt32 difference = wrapped(reciprocal(b, wrapped(digit + p.c, base)) + base - p.inverse_c, base);
     const UInt32 y = p.a * difference + p.zero;
-    // y is below 2^26; the factor is a little too small, so the quotient is right or one less.
-    const UInt32 q = as_uint(to_int(to_real(as_int(y)) * Float((1.0f - 0x1p-20f) / static_cast<float>(b.base))));
-    return wrapped(y - q * base, base);
+    const UInt32 q = nearest(to_real(as_int(y)) * Float(1.0f / static_cast<float>(b.base)));  // or one more; y is below 2^26
+    return not_negative(y - q * base, base);
 }
 
 /// What a row needs of memory.
@@ -125,13 +128,13 @@ HWY_INLINE void fill_scrambled(const SampleBlock& block, const HaltonRow& row, H
             const UInt32 low = UInt32::load(block.low + i);
             const Float n = place == 0 ? to_real(as_int(low)) : Float::load(s.rest + i);
             const Float q = last ? Float(0.0f) : quotient(n, inverse);
-            const UInt32 digit = as_uint(to_int(n - q * Float(static_cast<float>(b.base))));
+            const UInt32 digit = nearest(n - q * Float(static_cast<float>(b.base)));
             UInt32 y;
             if (of_pixels) {
                 y = image(b, digit, {block.of_pixel(s.zero, i), block.of_pixel(s.a, i), block.of_pixel(s.c, i), block.of_pixel(s.inverse_c, i)});
             } else {
                 const KeyPack key = block.of_pixel(s.keys, i);
-                const UInt32 before = low - as_uint(to_int(n)) * UInt32(weight);
+                const UInt32 before = low - nearest(n) * UInt32(weight);
                 y = image(b, digit, permutation(b, keyed_hash(key, UInt32(kZeroImages) | before), UInt32(weight), keyed_hash(key, UInt32(place << 24) | before)));
             }
             if (place != 0) y = y + UInt32::load(s.cells + i) * base;
