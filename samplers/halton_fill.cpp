@@ -17,7 +17,7 @@ using Randomize = HaltonSampler::Randomize;
 /// One dimension of a block. All indices have at most `places` digits; their digits are taken from floats, exactly.
 struct HaltonRow {
     const HaltonBase* base;
-    std::uint32_t dimension, places;
+    std::uint32_t places;
     std::uint32_t power;  ///< base^places, at most 2^24
 };
 inline constexpr std::uint64_t kLargestIndex = (1u << 21) - 1;
@@ -100,59 +100,67 @@ HWY_INLINE UInt32 image(const HaltonBase& b, UInt32 digit, const Permutation& p)
     return not_negative(y - q * base, base);
 }
 
-/// What a row needs of memory.
-struct HaltonScratch {
-    PixelKeyArray digit_keys, keys;  ///< of the pixels; of the pixels in this dimension
-    PixelTable hash, zero, a, c, inverse_c;
-    alignas(64) float rest[kBlockSamples];            ///< the digits of the index that are still to come
+/// What depends on a pixel and a dimension, for the pixels of a block.
+struct HaltonPixels {
+    PixelKeyArray keys;
+    PixelTable hash;  ///< of none of the digits: the shift, or the images of zeros
+    PixelTable zero, a, c, inverse_c;  ///< the permutations of a place
+
+    HWY_INLINE void set_permutations(const SampleBlock& block, const HaltonBase& b, std::uint32_t place, std::uint32_t weight) {
+        for (std::size_t p = 0; p < block.pixels; p += kPack) {
+            const Permutation f = permutation(b, UInt32::load(hash.of + p), UInt32(weight), keyed_hash(keys.pack(p), UInt32(place << 24)));
+            f.zero.store(zero.of + p), f.a.store(a.of + p), f.c.store(c.of + p), f.inverse_c.store(inverse_c.of + p);
+        }
+    }
+    [[nodiscard]] HWY_INLINE Permutation permutations(const SampleBlock& block, std::size_t i) const {
+        return {block.of_pixel(zero, i), block.of_pixel(a, i), block.of_pixel(c, i), block.of_pixel(inverse_c, i)};
+    }
+};
+
+/// What samples keep between two places.
+struct HaltonSamples {
+    alignas(64) float rest[kBlockSamples];           ///< the digits of the index that are still to come
     alignas(64) std::uint32_t cells[kBlockSamples];  ///< the images of those before
 };
 
 template <bool nested>
-HWY_INLINE void fill_scrambled(const SampleBlock& block, const HaltonRow& row, HaltonScratch& s, float* out) {
+HWY_INLINE void fill_scrambled(const SampleBlock& block, const HaltonRow& row, HaltonPixels& pixels, HaltonSamples& samples, float* out) {
     const HaltonBase& b = *row.base;
     const UInt32 base = b.base;
     const Float inverse = 1.0f / static_cast<float>(b.base);
-    for (std::size_t p = 0; p < block.pixels; ++p) s.keys.set(p, split_key(mix64(join_key(s.digit_keys[p]) ^ row.dimension)));
-
     std::uint32_t weight = 1;
     for (std::uint32_t place = 0; place < row.places; ++place, weight *= b.base) {
-        const bool last = place + 1 == row.places, of_pixels = place == 0 || !nested;
-        if (of_pixels)  // nothing before: a permutation for each pixel
-            for (std::size_t p = 0; p < block.pixels; p += kPack) {
-                const KeyPack key = s.keys.pack(p);
-                const Permutation f = permutation(b, keyed_hash(key, UInt32(kZeroImages)), UInt32(weight), keyed_hash(key, UInt32(place << 24)));
-                f.zero.store(s.zero.of + p), f.a.store(s.a.of + p), f.c.store(s.c.of + p), f.inverse_c.store(s.inverse_c.of + p);
-            }
+        const bool last = place + 1 == row.places;
+        if (place != 0 && !nested) pixels.set_permutations(block, b, place, weight);
         for (std::size_t i = 0; i < block.count; i += kPack) {
             const UInt32 low = UInt32::load(block.low + i);
-            const Float n = place == 0 ? to_real(as_int(low)) : Float::load(s.rest + i);
+            const Float n = place == 0 ? to_real(as_int(low)) : Float::load(samples.rest + i);
             const Float q = last ? Float(0.0f) : quotient(n, inverse);
             const UInt32 digit = nearest(n - q * Float(static_cast<float>(b.base)));
             UInt32 y;
-            if (of_pixels) {
-                y = image(b, digit, {block.of_pixel(s.zero, i), block.of_pixel(s.a, i), block.of_pixel(s.c, i), block.of_pixel(s.inverse_c, i)});
+            if (place == 0 || !nested) {
+                y = image(b, digit, pixels.permutations(block, i));
             } else {
-                const KeyPack key = block.of_pixel(s.keys, i);
+                const KeyPack key = block.of_pixel(pixels.keys, i);
                 const UInt32 before = low - nearest(n) * UInt32(weight);
                 y = image(b, digit, permutation(b, keyed_hash(key, UInt32(kZeroImages) | before), UInt32(weight), keyed_hash(key, UInt32(place << 24) | before)));
             }
-            if (place != 0) y = y + UInt32::load(s.cells + i) * base;
-            y.store(s.cells + i);
-            q.store(s.rest + i);
+            if (place != 0) y = y + UInt32::load(samples.cells + i) * base;
+            y.store(samples.cells + i);
+            q.store(samples.rest + i);
         }
     }
 
-    const UInt32 places = row.power, left = static_cast<std::uint32_t>(b.cells) / row.power, cells = static_cast<std::uint32_t>(b.cells);
-    if constexpr (!nested) block.hash_pixels(s.keys, kZeroImages, s.hash);
+    const std::uint32_t count = static_cast<std::uint32_t>(b.cells);
+    const UInt32 places = row.power, left = count / row.power, cells = count;
     for (std::size_t i = 0; i < block.count; i += kPack) {
         UInt32 zeros;
         if constexpr (nested)
-            zeros = keyed_hash(block.of_pixel(s.keys, i), UInt32(kZeroImages) | UInt32::load(block.low + i));
+            zeros = keyed_hash(block.of_pixel(pixels.keys, i), UInt32(kZeroImages) | UInt32::load(block.low + i));
         else
-            zeros = block.of_pixel(s.hash, i);
-        const UInt32 cell = UInt32::load(s.cells + i) * left + product_high(zeros * places, left);
-        stratum_float(cell, static_cast<std::uint32_t>(b.cells), b.scale, fraction(zeros * cells)).store_first(block.lanes(i), out + i);
+            zeros = block.of_pixel(pixels.hash, i);
+        const UInt32 cell = UInt32::load(samples.cells + i) * left + product_high(zeros * places, left);
+        stratum_float(cell, count, b.scale, fraction(zeros * cells)).store_first(block.lanes(i), out + i);
     }
 }
 
@@ -171,37 +179,51 @@ HWY_INLINE void fill_base_2(const SampleBlock& block, Randomize randomize, const
     }
 }
 
-void fill_row(const SampleBlock& block, const HaltonBase* bases, std::uint32_t dimension, Randomize randomize, HaltonScratch& s, float* out) {
-    const bool hashed = randomize == Randomize::shift || dimension == 0;
-    if (hashed && randomize != Randomize::none) block.hash_pixels(block.keys, dimension, s.hash);
-    if (dimension == 0) return fill_base_2(block, randomize, s.hash, out);
+bool is_scrambled(Randomize randomize) { return randomize == Randomize::digits || randomize == Randomize::owen; }
 
-    HaltonRow row{.base = bases + dimension, .dimension = dimension, .places = 1, .power = bases[dimension].base};
+void prepare(const SampleBlock& block, const HaltonBase* bases, std::uint32_t dimension, Randomize randomize, const PixelKeyArray& digit_keys,
+             HaltonPixels& pixels) {
+    if (randomize == Randomize::none) return;
+    if (dimension == 0 || !is_scrambled(randomize)) return block.hash_pixels(block.keys, dimension, pixels.hash);
+    for (std::size_t p = 0; p < block.pixels; ++p) pixels.keys.set(p, split_key(mix64(join_key(digit_keys[p]) ^ dimension)));
+    block.hash_pixels(pixels.keys, kZeroImages, pixels.hash);
+    pixels.set_permutations(block, bases[dimension], 0, 1);
+}
+
+void fill_row(const SampleBlock& block, const HaltonBase* bases, std::uint32_t dimension, Randomize randomize, HaltonPixels& pixels, HaltonSamples& samples,
+              float* out) {
+    if (dimension == 0) return fill_base_2(block, randomize, pixels.hash, out);
+    HaltonRow row{.base = bases + dimension, .places = 1, .power = bases[dimension].base};
     const std::uint64_t largest = block.any;  // or more
     for (; row.power <= largest && row.power < (1u << 24); ++row.places) row.power *= row.base->base;
-    const bool scrambled = randomize == Randomize::digits || randomize == Randomize::owen;
-    if (largest > kLargestIndex || row.power > (scrambled ? row.base->cells : 1u << 24)) {
+    if (largest > kLargestIndex || row.power > (is_scrambled(randomize) ? row.base->cells : 1u << 24)) {
         const Slot slot{.dimension = dimension};
         for (std::size_t i = 0; i < block.count; ++i) out[i] = HaltonSampler::Point(bases, block.key_of(i), block.index[i], randomize).get_1d(slot);
         return;
     }
     switch (randomize) {
-        case Randomize::none: return fill_inverse<false>(block, row, s.hash, out);
-        case Randomize::shift: return fill_inverse<true>(block, row, s.hash, out);
-        case Randomize::digits: return fill_scrambled<false>(block, row, s, out);
-        case Randomize::owen: return fill_scrambled<true>(block, row, s, out);
+        case Randomize::none: return fill_inverse<false>(block, row, pixels.hash, out);
+        case Randomize::shift: return fill_inverse<true>(block, row, pixels.hash, out);
+        case Randomize::digits: return fill_scrambled<false>(block, row, pixels, samples, out);
+        case Randomize::owen: return fill_scrambled<true>(block, row, pixels, samples, out);
     }
 }
 
 void fill_halton(const HaltonBase* bases, Randomize randomize, const PixelKeys& keys, std::span<const SampleId> samples, SlotRun run, float* out,
                  std::size_t stride) {
-    const std::uint32_t first = run.front().dimension, count = dimension_count(run);
+    const std::uint32_t first = run.front().dimension, end = first + dimension_count(run);
     SampleBlock block;
-    HaltonScratch scratch;
+    PixelKeyArray digit_keys;
+    HaltonPixels ahead[kAhead];
+    HaltonSamples kept;
     for (std::size_t begin = 0; begin < samples.size(); begin += kBlockSamples, out += kBlockSamples) {
         block.read(samples.subspan(begin, std::min(kBlockSamples, samples.size() - begin)), keys);
-        block.derive_pixel_keys(block.keys, kHaltonDigits, scratch.digit_keys);
-        for (std::uint32_t k = 0; k < count; ++k) fill_row(block, bases, first + k, randomize, scratch, out + k * stride);
+        block.derive_pixel_keys(block.keys, kHaltonDigits, digit_keys);
+        for (std::uint32_t d = first; d < end; ++d) {
+            if ((d - first) % kAhead == 0)
+                for (std::uint32_t k = 0; k < std::min(kAhead, end - d); ++k) prepare(block, bases, d + k, randomize, digit_keys, ahead[k]);
+            fill_row(block, bases, d, randomize, ahead[(d - first) % kAhead], kept, out + (d - first) * stride);
+        }
     }
 }
 
