@@ -158,6 +158,14 @@ struct SampleBlock {
     return unit_float24(k - select(above > Int32((1 << 24) - 1), UInt32(1u), UInt32(0u)));
 }
 
+/// table[i] of each lane, i below n, from a few tables in registers; the table is readable to a multiple of kLanes.
+[[nodiscard]] HWY_INLINE UInt32 small_lookup(const std::uint16_t* table, std::uint32_t n, UInt32 i) {
+    const UInt32 place = i & UInt32(kLanes - 1);
+    UInt32 x = lookup(load_widened(table), place);
+    for (std::uint32_t first = kLanes; first < n; first += kLanes) x = select(i > UInt32(first - 1), lookup(load_widened(table + first), place), x);
+    return x;
+}
+
 /// table[i] of each lane, i below 16; the table is linear over xor, and table[0] is 0.
 [[nodiscard]] HWY_INLINE UInt32 linear_lookup(const std::uint32_t* table, UInt32 i) {
     if constexpr (kLanes == 16) return lookup(UInt32::load_any(table), i);

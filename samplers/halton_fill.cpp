@@ -79,13 +79,7 @@ struct Permutation {
     UInt32 zero, a, c, inverse_c;
 };
 HWY_INLINE UInt32 reciprocal(const HaltonBase& b, UInt32 x) {
-    constexpr std::uint32_t n = kLanes;
-    if (b.base > 4 * n) return gather_two(b.inverse, x) & UInt32(0xffffu);
-    // A few tables in registers are faster.
-    const UInt32 place = x & UInt32(n - 1);
-    UInt32 y = lookup(load_widened(b.inverse), place);
-    for (std::uint32_t first = n; first < b.base; first += n) y = select(x > UInt32(first - 1), lookup(load_widened(b.inverse + first), place), y);
-    return y;
+    return b.base > 4 * kPack ? gather_two(b.inverse, x) & UInt32(0xffffu) : small_lookup(b.inverse, b.base, x);
 }
 HWY_INLINE Permutation permutation(const HaltonBase& b, UInt32 zeros, UInt32 weight, UInt32 hash) {
     const UInt32 base = b.base, less = b.base - 1;
