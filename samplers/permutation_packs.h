@@ -109,8 +109,14 @@ inline constexpr std::uint64_t kMostStrataOfPacks = 1u << 21;
 struct StrataPack {
     std::uint32_t n;
     double scale;
-    HWY_INLINE explicit StrataPack(std::uint32_t count) : n(count), scale(0x1p24 / count) {}
-    [[nodiscard]] HWY_INLINE Float place(UInt32 stratum, UInt32 jitter) const { return stratum_float(stratum, n, scale, fraction(jitter)); }
+    int bits;  ///< n = 2^bits, or -1
+    HWY_INLINE explicit StrataPack(std::uint32_t count)
+        : n(count), scale(0x1p24 / count), bits(std::has_single_bit(count) && count <= kMostStrataOfPacks ? std::countr_zero(count) : -1) {}
+    [[nodiscard]] HWY_INLINE Float place(UInt32 stratum, UInt32 jitter) const {
+        if (bits < 0) return stratum_float(stratum, n, scale, fraction(jitter));
+        // All steps of stratum_float are exact: digits of the stratum, then digits of the jitter.
+        return unit_float24(stratum * UInt32(1u << (24 - bits)) + shift_right(jitter, 8 + bits));
+    }
 };
 
 /// What samplers of kind `set` need of a block: indices modulo spp, and the keys of the jitters.
