@@ -5,6 +5,8 @@
 
 #include "embree.h"
 
+#include <tbb/task_arena.h>
+
 #include <cstddef>
 #include <deque>
 #include <string>
@@ -198,14 +200,16 @@ void Accelerator::add_disk(const AnalyticDisk& disk) {
 }
 
 void Accelerator::commit() {
-    rtcCommitScene(impl_->scene);
+    // Embree flushes denormals while it builds, and the first TBB task of a process sets the mode of all later ones: without
+    // an arena of its own the host's tasks would flush for ever.
+    tbb::task_arena().execute([&] { rtcCommitScene(impl_->scene); });
     impl_->check();
 }
 
 Hit Accelerator::intersect(const Ray& ray) const noexcept {
     RTCRayHit rh;
     rh.ray = embree_ray(ray);
-    rh.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    rh.hit.geomID = rh.hit.primID = RTC_INVALID_GEOMETRY_ID;  // Embree writes neither where it meets nothing
     embree::intersect1(impl_->scene, rh);
     return {rh.hit.geomID, rh.hit.primID};
 }
