@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <deque>
 #include <string>
+#include <utility>
 #include <variant>
 
 namespace koksma {
@@ -134,13 +135,13 @@ struct Accelerator::Impl {
     RTCDevice device = nullptr;
     RTCScene scene = nullptr;
     std::deque<UserShape> shapes;  // a deque: addresses are handed to Embree
+    std::function<void(const PacketQuery&)> watcher;
 
     Impl() {
         // No "threads=": Embree would cap TBB for the whole process.
         device = rtcNewDevice(nullptr);
         if (device == nullptr) throw Error("Embree cannot make a device (code " + std::to_string(rtcGetDeviceError(nullptr)) + ")");
         scene = rtcNewScene(device);
-        rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
         rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_HIGH);
     }
     ~Impl() {
@@ -199,7 +200,10 @@ void Accelerator::add_disk(const AnalyticDisk& disk) {
     impl_->add_user({disk});
 }
 
-void Accelerator::commit() {
+void Accelerator::watch(std::function<void(const PacketQuery&)> watcher) { impl_->watcher = std::move(watcher); }
+
+void Accelerator::commit(bool robust) {
+    rtcSetSceneFlags(impl_->scene, robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
     // Embree flushes denormals while it builds, and the first TBB task of a process sets the mode of all later ones: without
     // an arena of its own the host's tasks would flush for ever.
     tbb::task_arena().execute([&] { rtcCommitScene(impl_->scene); });
@@ -222,10 +226,12 @@ bool Accelerator::occluded(const Ray& ray) const noexcept {
 
 template <int N>
 void Accelerator::intersect(RayPacket<N>& rays, const std::int32_t* valid, Coherence coherence) const noexcept {
+    if (impl_->watcher) impl_->watcher({N, false, coherence, rays.o_x, valid});
     embree::intersect(valid, impl_->scene, reinterpret_cast<typename Packet<N>::RayHit&>(rays), embree::IntersectQuery(coherence == Coherence::coherent));
 }
 template <int N>
 void Accelerator::occluded(RayPacket<N>& rays, const std::int32_t* valid, Coherence coherence) const noexcept {
+    if (impl_->watcher) impl_->watcher({N, true, coherence, rays.o_x, valid});
     embree::occluded(valid, impl_->scene, reinterpret_cast<typename Packet<N>::Ray&>(rays), embree::OccludedQuery(coherence == Coherence::coherent));
 }
 template void Accelerator::intersect(RayPacket<4>&, const std::int32_t*, Coherence) const noexcept;
