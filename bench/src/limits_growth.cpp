@@ -73,7 +73,6 @@ Json json_row(const char* key, std::uint64_t n, const Cost& c) {
 Json measure_growth(const LimitsCommand& command, SceneSetup& setup) {
     Json figures;
 
-    // All cores that TBB has, against what they were busy with.
     {
         const double cpu = process_seconds();
         const auto wall = std::chrono::steady_clock::now();

@@ -3,6 +3,7 @@
 import json
 import os
 import subprocess
+import sys
 import unittest
 
 from harness import PROGRAM, ProgramTest
@@ -59,6 +60,21 @@ class Distance(ProgramTest):
         self.refuses(2, ["limits", "scene.xml", "--scaling", "--growth"], "--scaling", "--growth")
         self.refuses(1, ["limits", "none.xml"], "none.xml")
         self.refuses(1, ["limits", "scene.xml", "--json", "nowhere/limits.json"], "nowhere")
+
+
+class LargeScenes(ProgramTest):
+    """bench/scenes/make_scenes.py, small."""
+
+    def test_they_load_and_have_what_their_names_say(self):
+        script = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../bench/scenes/make_scenes.py")
+        subprocess.run([sys.executable, "-B", script, self.path("large"), "--triangles", "5000"], check=True)
+        self.assertLessEqual({"large/terrain.xml", "large/terrain.ply", "large/glass.xml", "large/glass.ply", "large/sky.hdr"}, set(self.files()))
+        out = self.succeeds("plan", "large/terrain.xml").out
+        self.assertIn("geometry       5002 triangles", out)
+        effects = self.succeeds("plan", "large/glass.xml", "--json").json()["effects"]
+        self.assertLessEqual({"dielectric", "environment"}, set(effects))
+        out = self.succeeds("limits", "large/terrain.xml", "large/glass.xml", "-D", "res=16", "--spp", "4", "--rounds", "1").out
+        self.assertNotIn("NOT", out)
 
 
 class Growth(ProgramTest):

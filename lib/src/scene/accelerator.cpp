@@ -135,6 +135,8 @@ struct Accelerator::Impl {
     RTCDevice device = nullptr;
     RTCScene scene = nullptr;
     std::deque<UserShape> shapes;  // a deque: addresses are handed to Embree
+    unsigned geometries = 0;
+    bool committed = false;
     std::function<void(const PacketQuery&)> watcher;
 
     Impl() {
@@ -154,7 +156,7 @@ struct Accelerator::Impl {
     void attach(RTCGeometry geometry) {
         rtcSetGeometryMask(geometry, ~0u);  // Embree 4 defaults to 1, Embree 3 to all
         rtcCommitGeometry(geometry);
-        rtcAttachGeometry(scene, geometry);
+        geometries = rtcAttachGeometry(scene, geometry) + 1;
         rtcReleaseGeometry(geometry);
         check();
     }
@@ -168,6 +170,7 @@ struct Accelerator::Impl {
         rtcSetGeometryOccludedFunction(geometry, occluded_user);
         rtcCommitGeometry(geometry);
         shapes.back().geometry = rtcAttachGeometry(scene, geometry);
+        geometries = shapes.back().geometry + 1;
         rtcReleaseGeometry(geometry);
         check();
     }
@@ -204,6 +207,9 @@ void Accelerator::watch(std::function<void(const PacketQuery&)> watcher) { impl_
 
 void Accelerator::commit(bool robust) {
     rtcSetSceneFlags(impl_->scene, robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
+    // Embree builds anew only what it takes for changed.
+    for (unsigned i = 0; impl_->committed && i < impl_->geometries; ++i) rtcCommitGeometry(rtcGetGeometry(impl_->scene, i));
+    impl_->committed = true;
     // Embree flushes denormals while it builds, and the first TBB task of a process sets the mode of all later ones: without
     // an arena of its own the host's tasks would flush for ever.
     tbb::task_arena().execute([&] { rtcCommitScene(impl_->scene); });
