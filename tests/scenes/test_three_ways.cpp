@@ -7,8 +7,6 @@
 #include "render_scene.h"
 #include "uniform.h"
 
-#include <koksma/scene/light_sampling.h>
-
 using namespace koksma;
 using namespace koksma::testing;
 
