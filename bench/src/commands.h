@@ -93,6 +93,16 @@ struct CardCommand {
     bool json = false;                           ///< the numbers, not the page
 };
 
+struct LimitsCommand {
+    SceneArguments settings;                     ///< its scene is set for each of `scenes`
+    std::vector<std::filesystem::path> scenes;
+    std::string kernel;
+    int rounds = 7, threads = 2;
+    bool not_robust = false, scaling = false, growth = false;
+    std::uint64_t memory_gb = 4;
+    std::filesystem::path json;
+};
+
 int run_render(const RenderCommand& command, const Registry& registry);
 int run_replay(const ReplayCommand& command, const Registry& registry);
 int run_plan(const PlanCommand& command, const Registry& registry);
@@ -104,6 +114,7 @@ int run_check(const CheckCommand& command, const Registry& registry);
 int run_points(const PointsCommand& command, const Registry& registry);
 int run_rates(const RatesCommand& command, const Registry& registry);
 int run_card(const CardCommand& command, const Registry& registry);
+int run_limits(const LimitsCommand& command, const Registry& registry);
 int run_report(const std::filesystem::path& directory);
 
 }  // namespace koksma

@@ -1,8 +1,7 @@
+#include <koksma/integrators/float_mode.h>
 #include <koksma/integrators/render.h>
 #include <koksma/integrators/thread_clock.h>
 #include <koksma/sampling/error.h>
-
-#include "float_mode.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
@@ -83,7 +82,7 @@ private:
 
 /// All samples of a tile: chunk after chunk (aligned to multiples of Film::kChunk), for every pixel in turn.
 RenderStats render_tile(const Job& job, PixelRect tile, Tracer& tracer) {
-    const detail::FlushDenormals flush;
+    const FlushDenormals flush;
     const double start = thread_seconds(), idle = tracer.stats().idle_seconds;
     RenderStats stats;
     Batch batch(job, tracer, stats);
