@@ -27,7 +27,7 @@ template <EffectSet kEffects>
 template <EffectSet kEffects>
 [[nodiscard]] Vec3f environment_radiance(const Scene& scene, Vec3f d) noexcept {
     if (scene.environment_light < 0) return Vec3f{0.0f};
-    if (scene.environment_map) return scene.environment_map->radiance(d);
+    if (scene.environment_map) return environment_value(scene.environment_map->table(), d).radiance;
     return scene.lights[static_cast<std::size_t>(scene.environment_light)].radiance.constant;
 }
 
@@ -58,7 +58,7 @@ template <EffectSet kEffects>
 
 template <EffectSet kEffects>
 [[nodiscard]] float environment_pdf(const Scene& scene, Vec3f d) noexcept {
-    return scene.environment_map ? scene.environment_map->pdf(d) : 0.25f * kInvPi;
+    return scene.environment_map ? environment_value(scene.environment_map->table(), d).pdf_w : 0.25f * kInvPi;
 }
 
 namespace detail {
@@ -98,9 +98,11 @@ template <EffectSet kEffects>
                 const Vec3f d = square_to_sphere(u);
                 return {d, light.radiance.constant, 0.25f * kInvPi, false, true, d};
             }
-            const EnvironmentMap::Sample e = scene.environment_map->sample(u);
-            if (!(e.pdf_w > 0.0f)) return {};
-            return {e.d, scene.environment_map->radiance(e.d), e.pdf_w, false, true, e.d};
+            if (scene.environment_map->is_black()) return {};
+            const Vec3f d = scene.environment_map->sample(u);
+            const auto value = environment_value(scene.environment_map->table(), d);
+            if (!(value.pdf_w > 0.0f)) return {};
+            return {d, value.radiance, value.pdf_w, false, true, d};
         }
     if constexpr (kEffects.has(Effect::sphere_light))
         if (light.kind == LightKind::sphere) {
