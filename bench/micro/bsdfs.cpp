@@ -85,7 +85,7 @@ void register_bsdfs() {
                     benchmark::DoNotOptimize(rows().out);
                     benchmark::ClobberMemory();
                 }
-                count(state, kBsdfInputs, "ns_per_direction");
+                count(state, kBsdfInputs, "per_direction");
             });
         }
 }

@@ -45,7 +45,7 @@ void trace(benchmark::State& state, const Setup& setup, const Kernel& kernel) {
         benchmark::DoNotOptimize(radiance.data());
         benchmark::ClobberMemory();
     }
-    count(state, setup.ids.size(), "ns_per_path");
+    count(state, setup.ids.size(), "per_path");
 }
 
 void film_add(benchmark::State& state) {
@@ -55,13 +55,13 @@ void film_add(benchmark::State& state) {
     for ([[maybe_unused]] auto iteration : state)
         for (std::int32_t y = 0; y < 64; ++y)
             for (std::int32_t x = 0; x < 64; ++x) film.add({x, y}, radiance);
-    count(state, 64 * 64 * radiance.size(), "ns_per_sample");
+    count(state, 64 * 64 * radiance.size(), "per_sample");
 }
 
 void film_image(benchmark::State& state) {
     Film film({0, 0, 256, 256});
     for ([[maybe_unused]] auto iteration : state) benchmark::DoNotOptimize(film.image());
-    count(state, 256 * 256, "ns_per_pixel");
+    count(state, 256 * 256, "per_pixel");
 }
 
 }  // namespace

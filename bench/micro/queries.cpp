@@ -53,7 +53,7 @@ void singles(benchmark::State& state, const Accelerator& accelerator, const std:
             for (const Ray& r : rays) sum += accelerator.intersect(r).primitive;
         benchmark::DoNotOptimize(sum);
     }
-    count(state, rays.size(), "ns_per_ray");
+    count(state, rays.size(), "per_ray");
 }
 
 template <int N>
@@ -90,7 +90,7 @@ void packets(benchmark::State& state, const Accelerator& accelerator, const std:
         }
         benchmark::DoNotOptimize(sum);
     }
-    count(state, whole, "ns_per_ray");
+    count(state, whole, "per_ray");
 }
 
 void add(const std::string& name, const Accelerator& accelerator, const std::vector<Ray>& rays, bool shadow) {

@@ -1,4 +1,4 @@
-// What a render is made of, besides samplers (samplers.cpp): one thread, CPU time. The counters ns_per_... are the result.
+// What a render is made of, besides samplers (samplers.cpp): one thread, CPU time. The counters per_... are the result.
 //
 //     query/<scene>/<rays>/<width>/<flag>   closest hits and occlusion tests by packet width (1: single rays) and coherence flag
 //     bsdf/<what>/<form>/<kind>             sampling and evaluation, one by one and in packs

@@ -11,11 +11,11 @@ void register_queries();
 void register_bsdfs();
 void register_kernels();
 
-/// Counts work, and says how many nanoseconds of CPU time a piece takes.
+/// Counts work, and says how much CPU time a piece takes.
 inline void count(benchmark::State& state, std::uint64_t pieces, const char* name) {
     const auto all = static_cast<double>(state.iterations()) * static_cast<double>(pieces);
     state.SetItemsProcessed(static_cast<std::int64_t>(all));
-    state.counters[name] = benchmark::Counter(all * 1e-9, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+    state.counters[name] = benchmark::Counter(all, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 
 }  // namespace koksma::micro
