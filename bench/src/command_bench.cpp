@@ -1,4 +1,5 @@
 #include "bench_scene.h"
+#include "judge.h"
 #include "line_file.h"
 #include "machine.h"
 #include "measure.h"
@@ -70,7 +71,9 @@ Reference obtain_reference(const Experiment& e, const BenchScene& s, const Regis
     return reference;
 }
 
-Json scene_json(const BenchScene& s, const Reference& reference) {
+Json scene_json(const BenchScene& s, const Judge& judge) {
+    const Reference& reference = judge.reference();
+    const Errors halves = judge.between_halves();
     const auto file = find_reference(s.key);
     return {{"name", s.what.name},
             {"purpose", s.scene.description.purpose},
@@ -85,7 +88,9 @@ Json scene_json(const BenchScene& s, const Reference& reference) {
               {"replicates", reference.halves[0].replicates + reference.halves[1].replicates},
               {"se_rmse", reference.standard_error()},
               {"halves_z", require_agreement(reference)},
+              {"between_halves", {{"mae", halves.mae}, {"smape", halves.smape}, {"flip", halves.flip}}},
               {"file", file ? file->filename().string() : ""}}},
+            {"emitter_pixels", judge.emitter_pixels()},
             {"picture", nullptr},
             {"reference_crop", nullptr},
             {"crops", Json::object()}};
@@ -155,7 +160,8 @@ int run_bench(const BenchCommand& command, const Registry& registry, const std::
         for (std::size_t i = 0; i < scenes.size(); ++i) {
             const BenchScene& s = scenes[i];
             const Reference& reference = references[i];
-            Json entry = scene_json(s, reference);
+            const Judge judge(s, reference, registry, command.threads);
+            Json entry = scene_json(s, judge);
             entry["picture"] = render_picture(experiment, s, registry, out, command.threads);
             const float exposure = exposure_for(reference.mean);
             entry["reference_crop"] = "pictures/" + s.what.name + "-reference.png";
@@ -171,7 +177,7 @@ int run_bench(const BenchCommand& command, const Registry& registry, const std::
                         for (std::size_t layout = 0; layout < orders[i].size(); ++layout) {
                             std::vector<float> image;
                             const Trial trial{spp, replicate, static_cast<int>(layout), &orders[i][layout]};
-                            rows.push_back(measure(s, sampler, reference, trial, experiment.seed, command.threads, image));
+                            rows.push_back(measure(s, sampler, judge, trial, experiment.seed, command.threads, image));
                             partial.add(rows.back());
                             if (replicate == 0 && layout == 0 && spp == experiment.crop_spp) {
                                 const std::string name = "pictures/" + s.what.name + "-" + file_stem(sampler.name()) + ".png";

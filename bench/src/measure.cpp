@@ -2,27 +2,42 @@
 
 #include "machine.h"
 
-#include <koksma/measure/metrics.h>
 #include <koksma/measure/seeds.h>
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <string>
 
 namespace koksma {
 
-Row measure(const BenchScene& s, const SamplerFactory& sampler, const Reference& reference, const Trial& trial, std::uint64_t base_seed, int threads,
-            std::vector<float>& image) {
-    const std::uint64_t spp = trial.spp;
+namespace {
+
+/// Asks a source that can say it how it fills its numbers.
+template <class Source>
+std::string fill_of(const Source& source) {
+    if constexpr (requires { static_cast<bool>(source.vectorised()); })
+        return source.vectorised() ? "vector" : "scalar";
+    else
+        return "unstated";
+}
+
+}  // namespace
+
+std::uint64_t seed_of(const BenchScene& s, const SamplerFactory& sampler, const Trial& trial, std::uint64_t base_seed) {
     const std::uint64_t base = trial.layout == 0 ? base_seed : hash_combine(base_seed, static_cast<std::uint64_t>(trial.layout));
-    const std::uint64_t seed = test_seed(base, s.key.scene_hash, sampler.name(), spp, static_cast<std::uint64_t>(trial.replicate));
+    return test_seed(base, s.key.scene_hash, sampler.name(), trial.spp, static_cast<std::uint64_t>(trial.replicate));
+}
+
+Row measure(const BenchScene& s, const SamplerFactory& sampler, const Judge& judge, const Trial& trial, std::uint64_t base_seed, int threads,
+            std::vector<float>& image) {
+    const std::uint64_t spp = trial.spp, seed = seed_of(s, sampler, trial, base_seed);
     std::unique_ptr<SampleSource> source = sampler.bind(sampling_plan(s.scene, s.plan, spp, seed));
     if (trial.layout != 0) source = std::make_unique<PermutedSource>(std::move(source), s.plan.layout, *trial.order);
     RenderOptions options;
     options.threads = threads;
     const RenderResult result = render(s.scene, s.plan, *source, {s.what.crop, 0, spp}, options);
     image = result.film.image();
-    const ReferenceError error = compare_to_reference(image, reference.mean, reference.variance);
+    const Judge::Verdict verdict = judge.judge(image, trial.replicate < kFlipReplicates && trial.layout == 0);
     static const Machine kMachine = machine();
     const Vec3d mean = result.film.mean();
     Row row;
@@ -44,11 +59,8 @@ Row measure(const BenchScene& s, const SamplerFactory& sampler, const Reference&
     row.effects = s.plan.effects.names();
     row.dimensions = s.plan.layout.dimensions();
     row.kernel = result.stats.kernel;
-    row.mse = error.mse;
-    row.mse_raw = error.mse_raw;
-    row.rmse = error.mse > 0.0 ? std::sqrt(error.mse) : 0.0;
-    row.relmse = error.relmse;
-    row.relmse_raw = error.relmse_raw;
+    row.all = verdict.all;
+    row.masked = verdict.masked;
     row.mean_rgb[0] = mean.x;
     row.mean_rgb[1] = mean.y;
     row.mean_rgb[2] = mean.z;
@@ -58,6 +70,7 @@ Row measure(const BenchScene& s, const SamplerFactory& sampler, const Reference&
     row.paths = result.stats.paths;
     row.rays = result.stats.rays.closest + result.stats.rays.shadow;
     row.invalid_samples = result.stats.invalid_samples;
+    row.fill = fill_of(*source);
     row.threads = threads > 0 ? threads : kMachine.cores;
     row.estimator_version = kEstimatorVersion;
     row.reference = s.key.digest();

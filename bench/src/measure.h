@@ -1,7 +1,7 @@
 #pragma once
 // One measured render, and what an experiment's renders cost.
 
-#include "bench_scene.h"
+#include "judge.h"
 #include "row.h"
 
 #include <koksma/sampling/permuted_source.h>
@@ -16,8 +16,14 @@ struct Trial {
     const SlotOrder* order = nullptr;  ///< of the layout; not read for layout 0
 };
 
+/// FLIP, the dearest of the metrics, is taken of the first replicates only: it has no slope, and its spread is small.
+inline constexpr int kFlipReplicates = 4;
+
+/// The seed of a trial's render: of each its own.
+[[nodiscard]] std::uint64_t seed_of(const BenchScene& scene, const SamplerFactory& sampler, const Trial& trial, std::uint64_t base_seed);
+
 /// Renders one replicate and compares it with the reference. @param image  receives the render, shape (height, width, 3)
-[[nodiscard]] Row measure(const BenchScene& scene, const SamplerFactory& sampler, const Reference& reference, const Trial& trial, std::uint64_t base_seed,
+[[nodiscard]] Row measure(const BenchScene& scene, const SamplerFactory& sampler, const Judge& judge, const Trial& trial, std::uint64_t base_seed,
                           int threads, std::vector<float>& image);
 
 /// Renders and samples of a pixel of one scene by one sampler, over all counts, replicates and layouts.

@@ -1,5 +1,6 @@
 #include "summary.h"
 
+#include "curve.h"
 #include "json_error.h"
 
 #include <koksma/measure/ratio.h>
@@ -23,41 +24,8 @@ namespace koksma {
 namespace {
 
 using Json = nlohmann::ordered_json;
-constexpr double kConfidence = 0.95;
 
-Json number(double x) { return std::isfinite(x) ? Json(x) : Json(); }
-
-/// The replicates of one sampler at one spp.
-struct Point {
-    std::uint64_t spp = 0;
-    std::vector<double> mse, relmse, wall, cpu, sampler;
-    std::uint64_t invalid = 0;
-};
-using Curve = std::map<std::uint64_t, Point>;  // by spp
-
-/// @param layout  0: as the plan has it
-Curve curve_of(const std::vector<Row>& rows, const std::string& scene, const std::string& sampler, int layout = 0) {
-    Curve curve;
-    for (const Row& r : rows) {
-        if (r.scene != scene || r.sampler != sampler || r.layout != layout) continue;
-        Point& p = curve[r.spp];
-        p.spp = r.spp;
-        p.mse.push_back(r.mse);
-        p.relmse.push_back(r.relmse);
-        p.wall.push_back(r.wall_seconds);
-        p.cpu.push_back(r.cpu_seconds);
-        p.sampler.push_back(r.sampler_seconds);
-        p.invalid += r.invalid_samples;
-    }
-    return curve;
-}
-
-/// Without a randomisation all replicates are one: keep its error, drop the interval.
-std::vector<double> replicates(const std::vector<double>& values, bool randomized) {
-    return randomized ? values : std::vector<double>(values.begin(), values.begin() + 1);
-}
-
-Json point_json(const Point& p, bool randomized) {
+Json point_json(const Point& p, bool randomized, const Curve& baseline) {
     const RmseEstimate mse = rmse_estimate(replicates(p.mse, randomized), kConfidence);
     const Estimate relmse = metric_estimate(replicates(p.relmse, randomized), kConfidence);
     const Estimate cpu = mean_estimate(p.cpu, kConfidence), wall = mean_estimate(p.wall, kConfidence);
@@ -75,6 +43,8 @@ Json point_json(const Point& p, bool randomized) {
             {"cpu_seconds_hi", number(cpu.hi)},
             {"wall_seconds", wall.value},
             {"sampler_share", cpu.value > 0.0 ? mean_estimate(p.sampler, kConfidence).value / cpu.value : 0.0},
+            {"fill", p.fills.size() == 1 ? p.fills.front() : "several"},
+            {"metrics", metrics_json(p, randomized, baseline)},
             {"below_floor", mse.below_floor}};
 }
 
@@ -218,7 +188,7 @@ Json summarize(const Json& header, const std::vector<Row>& rows) {
             if (row == nullptr) continue;
             const Curve curve = curve_of(rows, name, spec);
             Json points = Json::array();
-            for (const auto& [spp, p] : curve) points.push_back(point_json(p, row->randomized));
+            for (const auto& [spp, p] : curve) points.push_back(point_json(p, row->randomized, base_curve));
             Json entry = {{"sampler", spec},
                           {"label", label_of(header, spec)},
                           {"randomized", row->randomized},
