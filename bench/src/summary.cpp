@@ -7,6 +7,7 @@
 #include <koksma/measure/rmse_estimate.h>
 #include <koksma/measure/slope.h>
 #include <koksma/measure/spread.h>
+#include <koksma/measure/tails.h>
 #include <koksma/measure/time_to.h>
 #include <koksma/sampling/error.h>
 
@@ -145,6 +146,13 @@ Json layouts_json(const std::vector<Row>& rows, const std::string& scene, const 
     return out;
 }
 
+/// Whether the curve looks like the laws whose intervals were seen to cover less than they say.
+bool tails_of(const Curve& curve) {
+    std::vector<std::vector<double>> points;
+    for (const auto& [spp, p] : curve) points.push_back(p.mse);
+    return heavy_tailed(points);
+}
+
 std::string label_of(const Json& header, const std::string& sampler) {
     for (const Json& s : header.at("samplers"))
         if (s.at("sampler") == sampler) return s.at("label");
@@ -165,6 +173,10 @@ Json summarize(const Json& header, const std::vector<Row>& rows) {
     summary["experiment"]["confidence"] = kConfidence;
     std::uint64_t invalid = 0;
     double seconds = 0.0;
+    std::vector<std::vector<Contender>> contenders;
+    std::string baseline;
+    for (const Json& s : header.at("samplers"))
+        if (s.at("sampler") == "random") baseline = "random";
     for (const Row& r : rows) {
         invalid += r.invalid_samples;
         seconds += r.wall_seconds;
@@ -177,9 +189,7 @@ Json summarize(const Json& header, const std::vector<Row>& rows) {
         out["effects"] = first->effects;
         out["dimensions"] = first->dimensions;
         out["kernel"] = first->kernel;
-        std::string baseline;
-        for (const Json& s : header.at("samplers"))
-            if (const std::string spec = s.at("sampler"); spec == "random") baseline = spec;
+        contenders.emplace_back();
         const Curve base_curve = curve_of(rows, name, baseline);
         Json samplers = Json::array();
         for (const Json& s : header.at("samplers")) {
@@ -187,12 +197,14 @@ Json summarize(const Json& header, const std::vector<Row>& rows) {
             const Row* row = first_row(rows, name, spec);
             if (row == nullptr) continue;
             const Curve curve = curve_of(rows, name, spec);
+            contenders.back().push_back({spec, row->randomized, curve});
             Json points = Json::array();
             for (const auto& [spp, p] : curve) points.push_back(point_json(p, row->randomized, base_curve));
             Json entry = {{"sampler", spec},
                           {"label", label_of(header, spec)},
                           {"randomized", row->randomized},
                           {"points", points},
+                          {"heavy_tailed", row->randomized && tails_of(curve)},
                           {"slope", slope_json(curve, row->randomized)},
                           {"time_to", times_json(curve, row->randomized, header.at("relmse_targets"))},
                           {"gain_vs_random", spec == baseline ? Json() : gain_json(curve, row->randomized, base_curve)}};
@@ -208,9 +220,11 @@ Json summarize(const Json& header, const std::vector<Row>& rows) {
             samplers.push_back(entry);
         }
         out["samplers"] = samplers;
+        out["pairs"] = pairs_json(contenders.back());
         out.erase("crops");
         summary["scenes"].push_back(out);
     }
+    summary["across_scenes"] = across_scenes_json(contenders, baseline);
     summary["invalid_samples"] = invalid;
     summary["seconds_total"] = seconds;
     return summary;

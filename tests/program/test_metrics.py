@@ -83,5 +83,31 @@ class Masks(BenchTest):
                 self.assertTrue(equivalent["lo"] < equivalent["value"] < equivalent["hi"])
 
 
+class Ranks(BenchTest):
+    def test_pairs_of_a_scene_are_corrected_as_holm_says(self):
+        self.write_experiment(samplers=["random", "sobol", "stratified", "halton"], spp=[1, 4], replicates=[4, 8])
+        out = self.bench("--no-report").out
+        pairs = self.summary()["scenes"][0]["pairs"]
+        self.assertEqual(len(pairs), 6)
+        least = 0
+        for rank, pair in enumerate(sorted(pairs, key=lambda pair: pair["p"])):
+            least = max(least, min(1, pair["p"] * (6 - rank)))
+            self.assertAlmostEqual(pair["p_holm"], least, delta=1e-12)
+            self.assertEqual(pair["verdict"], "distinguishable" if least < 0.05 else "not distinguishable")
+            self.assertEqual(pair["better"], None if least >= 0.05 else pair["a" if pair["mse_ratio"]["value"] > 1 else "b"])
+        self.assertIn("not distinguishable:", out)
+
+    def test_across_scenes_mean_and_range(self):
+        self.write("other.xml", self.read("scene.xml").decode().replace('value="12, 11, 9"', 'value="1, 1, 1"'))
+        self.write_experiment(scenes=[{"file": f, "crop": [4, 4, 8, 8]} for f in ["scene.xml", "other.xml"]])
+        out = self.bench("--no-report").out
+        summary = self.summary()
+        (sobol,) = summary["across_scenes"]
+        gains = [s["samplers"][1]["gain_vs_random"]["mse_ratio"] for s in summary["scenes"]]
+        self.assertAlmostEqual(sobol["geometric_mean"], (gains[0] * gains[1]) ** 0.5, delta=1e-9)
+        self.assertEqual((sobol["lowest"], sobol["highest"], sobol["scenes"], sobol["left_out"]), (min(gains), max(gains), 2, 0))
+        self.assertIn("of other scenes this says nothing", out)
+
+
 if __name__ == "__main__":
     unittest.main()
