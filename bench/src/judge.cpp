@@ -2,7 +2,12 @@
 
 #include "reference_store.h"
 
+#include <koksma/measure/seeds.h>
+
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <bit>
 #include <limits>
 
 namespace koksma {
@@ -35,8 +40,20 @@ std::vector<unsigned char> visible_emitters(const BenchScene& s, const Registry&
     return mask;
 }
 
+namespace {
+
+std::string content_of(const Reference& reference) {
+    std::uint64_t h = 0;
+    for (const std::vector<float>* image : {&reference.mean, &reference.variance})
+        for (const float v : *image) h = hash_combine(h, std::bit_cast<std::uint32_t>(v));
+    return fmt::format("{:016x}", h);
+}
+
+}  // namespace
+
 Judge::Judge(const BenchScene& scene, const Reference& reference, const Registry& registry, int threads)
     : reference_(&reference),
+      content_(content_of(reference)),
       flip_(reference.mean, reference.key.rect.width, reference.key.rect.height),
       emitters_(visible_emitters(scene, registry, threads)) {}
 

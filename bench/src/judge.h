@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace koksma {
@@ -42,9 +43,12 @@ public:
     [[nodiscard]] const Reference& reference() const noexcept { return *reference_; }
     [[nodiscard]] const std::vector<unsigned char>& emitters() const noexcept { return emitters_; }
     [[nodiscard]] std::int64_t emitter_pixels() const noexcept;
+    /// 16 hexadecimal digits of the reference's pixels.
+    [[nodiscard]] const std::string& content() const noexcept { return content_; }
 
 private:
     const Reference* reference_;
+    std::string content_;
     HdrFlip flip_;
     std::vector<unsigned char> emitters_;
 };

@@ -19,6 +19,7 @@ double number_or_nan(const nlohmann::ordered_json& j, const char* key) {
 
 void to_json(nlohmann::ordered_json& j, const Row& r) {
     j = {{"kind", "render"},
+         {"row_format", kRowFormat},
          {"scene", r.scene},
          {"scene_hash", r.scene_hash},
          {"sampler", r.sampler},
@@ -62,6 +63,7 @@ void to_json(nlohmann::ordered_json& j, const Row& r) {
          {"fill", r.fill},
          {"estimator_version", r.estimator_version},
          {"reference", r.reference},
+         {"reference_content", r.reference_content},
          {"commit", r.commit},
          {"machine", r.machine},
          {"isa", r.isa}};
@@ -109,6 +111,7 @@ void from_json(const nlohmann::ordered_json& j, Row& r) {
     j.at("threads").get_to(r.threads);
     j.at("estimator_version").get_to(r.estimator_version);
     j.at("reference").get_to(r.reference);
+    r.reference_content = j.value("reference_content", "");
     j.at("commit").get_to(r.commit);
     j.at("machine").get_to(r.machine);
     j.at("isa").get_to(r.isa);

@@ -11,6 +11,9 @@
 
 namespace koksma {
 
+/// Bumped when rows of an older program cannot stand beside new ones.
+inline constexpr int kRowFormat = 2;
+
 struct Row {
     std::string scene, scene_hash, sampler;
     std::uint32_t sampler_version = 0;
@@ -31,6 +34,7 @@ struct Row {
     std::string fill;           ///< how the sampler filled its numbers: "scalar", "vector", or "unstated"
     int estimator_version = 0;
     std::string reference;      ///< digest of the reference that it was compared with
+    std::string reference_content;  ///< hash of its pixels: the key does not say with how many samples it was made
     std::string commit, machine, isa;
 };
 

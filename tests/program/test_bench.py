@@ -11,7 +11,7 @@ from exr import Exr
 from harness import ProgramTest
 from test_experiment import TINY
 
-ROW = {"kind": str, "scene": str, "scene_hash": str, "sampler": str, "sampler_version": int, "randomized": bool, "spp": int,
+ROW = {"kind": str, "row_format": int, "reference_content": str, "scene": str, "scene_hash": str, "sampler": str, "sampler_version": int, "randomized": bool, "spp": int,
        "replicate": int, "layout": int, "seed": int, "film": list, "crop": list, "max_depth": int, "rr_depth": int, "effects": list,
        "dimensions": int, "kernel": str, "mse": float, "mse_raw": float, "rmse": float, "relmse": float, "relmse_raw": float,
        "mae": float, "smape": float, "flip": float, "masked": dict,
@@ -274,8 +274,10 @@ class Reports(BenchTest):
 
     def test_rows_survive_without_python(self):
         self.environment["KOKSMA_PYTHON"] = "/none/python"
-        result = self.bench()
+        result = self.koksma("bench", "tiny.json", "-o", "out")
+        self.assertEqual(result.code, 1)  # what was asked for is not there
         self.assertEqual(result.err.splitlines()[-1].count("python3-jinja2"), 1)
+        self.assertIn("the rows and the tables are complete", result.err.splitlines()[-1])
         self.assertEqual(len(self.lines()[1]), 16)
         self.assertNotIn("out/report.html", self.files())
         failed = self.koksma("report", "out")
