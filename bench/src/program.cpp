@@ -85,8 +85,17 @@ int run_program(int argc, char** argv) {
     c->add_option("-s,--sampler", bench.samplers, "Samplers instead of the experiment's; may be repeated")->take_all();
     c->add_option("--scene", bench.scenes, "Only these scenes of the experiment; may be repeated")->take_all();
     c->add_option("-t,--threads", bench.threads, "Threads; 0: all")->check(CLI::Range(0, 4096));
+    c->add_flag("--fresh", bench.fresh, "Render all again, also what an earlier run in the folder has rendered");
+    c->add_option("--shard", bench.shard, "Only part k of n, as in 2/3, into FOLDER/shard-k-of-n; koksma merge puts them together");
     const std::string command_line = joined(argc, argv);
     c->final_callback([&] { action = [&] { return run_bench(bench, registry, command_line); }; });
+
+    MergeCommand merge;
+    c = app.add_subcommand("merge", "Put the parts of a bench --shard run together");
+    c->add_option("parts", merge.parts, "Folders of all parts")->required();
+    c->add_option("-o,--out", merge.out, "Folder to write to")->required();
+    c->add_flag("--no-report", merge.no_report, "Do not make report.html");
+    c->final_callback([&] { action = [&] { return run_merge(merge); }; });
 
     CompareCommand compare;
     c = app.add_subcommand("compare", "Compare two images: RMSE, relMSE and more (B is the reference)");
