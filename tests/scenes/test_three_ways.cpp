@@ -252,7 +252,8 @@ TEST_CASE("light sampling and light_pdf give one density", "[scenes]") {
             const Hit hit = ready.scene.accelerator.intersect(ray);
             if (!hit.valid() || hit.geometry != light.geometry) continue;
             const Surface there = surface_at<kAll>(ready.scene, ray, hit);
-            if (std::fabs(dot(there.ng, s.wi)) < 0.02f) continue;  // there the density per area is ill-conditioned
+            const bool curved = kind == Kind::cylinder || kind == Kind::inward_cylinder;  // where the normal turns with the error, too
+            if (std::fabs(dot(there.ng, s.wi)) < (curved ? 0.2f : 0.02f)) continue;  // there the density per area is ill-conditioned
             worst = std::max(worst, std::fabs(double{light_pdf<kAll>(ready.scene, light, p, there, s.wi)} / s.pdf_w - 1.0));
             ++tested;
         }
