@@ -129,7 +129,7 @@ SamplingPlan sampling_plan(const Scene& scene, const RenderPlan& plan, std::uint
 RenderResult render(const Scene& scene, const RenderPlan& plan, const SampleSource& source, const WorkItem& work, const RenderOptions& options) {
     const Kernel& kernel = options.kernel != nullptr ? *options.kernel : choose_kernel(plan.effects);
     if (!kernel.effects.contains(plan.effects)) throw Error("kernel '" + std::string(kernel.name) + "' lacks an effect of the scene");
-    RenderResult result{Film(work.rect), {}};
+    RenderResult result{Film(work.rect, !plan.integrator.moments.empty()), {}};
     const Job job{work, kernel, result.film};
     const std::int32_t side = tile_side(kernel, work.count);
     const std::int32_t columns = (work.rect.width + side - 1) / side, rows = (work.rect.height + side - 1) / side;

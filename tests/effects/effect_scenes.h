@@ -5,6 +5,7 @@
 
 #include <scenes/describe.h>
 
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -19,6 +20,20 @@ namespace koksma::testing {
     d.camera.fov_x_degrees = 60;
     d.integrator.max_depth = 4;
     return d;
+}
+
+/// One of each kind of light without extent that is more than a point.
+[[nodiscard]] inline std::vector<DeltaLight> delta_lights() {
+    SpotLight spot;
+    spot.to_world = look_at({0.2, 1.5, 0.1}, {0, 0, 0}, {1, 0, 0});
+    spot.intensity = Rgb(3.0f, 2.0f, 1.0f);
+    SpotLight slide = spot;
+    slide.texture = CheckerboardTexture{Rgb(0.1f), Rgb(1.0f), glm::dmat3(4.0)};
+    ProjectorLight projector;
+    projector.to_world = spot.to_world;
+    projector.irradiance = CheckerboardTexture{Rgb(0.1f), Rgb(1.0f), glm::dmat3(4.0)};
+    projector.aspect = 1.5;
+    return {spot, slide, projector, DirectionalLight{{0.3, -2.0, 0.1}, Rgb(1.0f, 2.0f, 3.0f), {}}};
 }
 
 struct EffectScene {
@@ -47,6 +62,15 @@ struct EffectScene {
     d = floor_scene(false);
     d.point_lights.push_back({{0.2, 1.0, 0.1}, Rgb(1.0f, 2.0f, 3.0f), {}});
     add(Effect::point_light, d);
+    for (const DeltaLight& light : delta_lights()) {
+        d = floor_scene(false);
+        d.delta_lights.push_back(light);
+        add(Effect::point_light, d);
+    }
+    for (int i = 0; i < 20; ++i) d.point_lights.push_back({{0.2 * i - 2.0, 1.0, 0.1}, Rgb(0.1f), {}});
+    d.delta_lights = delta_lights();
+    d.environment = ConstantEnvironment{Rgb(0.1f), {}};
+    add(Effect::many_lights, d);
 
     d = floor_scene(false);
     MapEnvironment m;
@@ -97,6 +121,26 @@ struct EffectScene {
     add_shape(d, SphereShape{}, translated({-0.5, 0.4, 0}) * scaled(0.4), 0);
     add_shape(d, DiskShape{}, translated({0.6, 0.4, 0}) * rotated({1, 0, 0}, -60) * scaled(0.4), 0);
     add(Effect::analytic_shape, d);
+    add_shape(d, CylinderShape{{0, 0.3, 0}, {0.3, 0.5, 0.2}, 0.2}, translated({0, 0.1, 0.4}), add_diffuse(d, 0.6f, true));
+    add_light(d, CylinderShape{}, translated({0, 1.5, 0}) * scaled(0.1), Rgb(20.0f));
+    add(Effect::analytic_shape, d);
+
+    d = floor_scene();
+    d.camera.orthographic = true;
+    d.camera.to_world = d.camera.to_world * scaled({1.5, 1.2, 1});
+    d.film.filter.kind = ReconstructionFilter::Kind::gaussian;
+    add(Effect::diffuse, d);
+
+    d = floor_scene();
+    auto coloured = std::make_shared<MeshData>();
+    coloured->positions = {{-1, 0.2f, 1}, {1, 0.2f, 1}, {1, 0.2f, -1}, {-1, 0.4f, -1}};
+    coloured->triangles = {{0, 1, 2}, {0, 2, 3}};
+    coloured->attributes = {{"vertex_color", {Rgb(0.9f, 0.1f, 0.1f), Rgb(0.1f, 0.9f, 0.1f), Rgb(0.1f, 0.1f, 0.9f), Rgb(0.5f)}}, {"face_grey", {Rgb(0.2f), Rgb(0.6f)}}};
+    const std::uint32_t by_vertex = add_material(d, Diffuse{MeshAttributeTexture{"vertex_color", 0.5f}});
+    const std::uint32_t by_face = add_material(d, Diffuse{MeshAttributeTexture{"face_grey", 1.0f}});
+    add_shape(d, MeshShape{coloured}, Matrix(1.0), by_vertex);
+    add_shape(d, MeshShape{coloured}, translated({0, 0.2, 0}) * scaled(0.3), by_face);
+    add(Effect::mesh_attribute, d);
 
     d = floor_scene();
     add_shape(d, mesh({{-1, 0.2f, 1}, {1, 0.2f, 1}, {1, 0.2f, -1}, {-1, 0.2f, -1}}, {{0, 1, 2}, {0, 2, 3}}, {{-0.3f, 1, 0}, {0.3f, 1, 0}, {0.3f, 1, 0.2f}, {-0.3f, 1, 0}}),

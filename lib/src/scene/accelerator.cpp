@@ -21,14 +21,14 @@ namespace {
 constexpr float kLargestCoordinate = 1.844e18f;
 
 struct UserShape {
-    std::variant<AnalyticSphere, AnalyticDisk> shape;
+    std::variant<AnalyticSphere, AnalyticDisk, AnalyticCylinder> shape;
     unsigned geometry = 0;
 };
 
 float first_hit(const UserShape& user, const Ray& ray) noexcept {
-    const double t = std::holds_alternative<AnalyticSphere>(user.shape) ? intersect(std::get<AnalyticSphere>(user.shape), ray)
-                                                                        : intersect(std::get<AnalyticDisk>(user.shape), ray).t;
-    return static_cast<float>(t);
+    if (const auto* sphere = std::get_if<AnalyticSphere>(&user.shape)) return static_cast<float>(intersect(*sphere, ray));
+    if (const auto* disk = std::get_if<AnalyticDisk>(&user.shape)) return static_cast<float>(intersect(*disk, ray).t);
+    return static_cast<float>(intersect(std::get<AnalyticCylinder>(user.shape), ray).t);
 }
 
 Ray ray_of(RTCRayN* rays, unsigned n, unsigned i) noexcept {
@@ -67,6 +67,9 @@ void bounds_user(const RTCBoundsFunctionArguments* args) {
     if (const auto* sphere = std::get_if<AnalyticSphere>(&user.shape)) {
         center = sphere->center;
         extent = Vec3d(sphere->radius);
+    } else if (const auto* cylinder = std::get_if<AnalyticCylinder>(&user.shape)) {
+        center = cylinder->base + cylinder->axis * 0.5;
+        extent = reach(*cylinder);
     } else {
         const auto& disk = std::get<AnalyticDisk>(user.shape);
         center = disk.center;
@@ -201,6 +204,12 @@ void Accelerator::add_disk(const AnalyticDisk& disk) {
     if (!(length(disk.center) + length(disk.s) + length(disk.t) < kLargestCoordinate))
         throw Error("a disk reaches farther from the camera than 1.8e18, or is not finite");
     impl_->add_user({disk});
+}
+
+void Accelerator::add_cylinder(const AnalyticCylinder& cylinder) {
+    if (!(length(cylinder.base) + length(cylinder.axis) + cylinder.radius < kLargestCoordinate))
+        throw Error("a cylinder reaches farther from the camera than 1.8e18, or is not finite");
+    impl_->add_user({cylinder});
 }
 
 void Accelerator::watch(std::function<void(const PacketQuery&)> watcher) { impl_->watcher = std::move(watcher); }

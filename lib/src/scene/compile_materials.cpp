@@ -1,4 +1,8 @@
+#include <koksma/sampling/error.h>
+
 #include "compile.h"
+
+#include <algorithm>
 
 namespace koksma::detail {
 
@@ -11,6 +15,10 @@ bool is_same(const Texture& a, const Texture& b) {
     if (const auto* x = std::get_if<BitmapTexture>(&a)) {
         const auto& y = std::get<BitmapTexture>(b);
         return x->image == y.image && x->filter == y.filter && x->wrap == y.wrap && x->to_uv == y.to_uv;
+    }
+    if (const auto* x = std::get_if<MeshAttributeTexture>(&a)) {
+        const auto& y = std::get<MeshAttributeTexture>(b);
+        return x->name == y.name && x->scale == y.scale;
     }
     const auto &x = std::get<CheckerboardTexture>(a), &y = std::get<CheckerboardTexture>(b);
     return x.color0 == y.color0 && x.color1 == y.color1 && x.to_uv == y.to_uv;
@@ -66,6 +74,21 @@ std::uint32_t add_side(Scene& scene, const OneSidedMaterial& material, MaterialS
     return static_cast<std::uint32_t>(scene.sides.size() - 1);
 }
 
+/// @throws Error for a shape whose mesh lacks an attribute that its material looks up
+void check_attributes(const Scene& scene, std::uint32_t material, std::size_t first_texture) {
+    for (std::size_t t = first_texture; t < scene.textures.size(); ++t) {
+        const auto* wanted = std::get_if<MeshAttributeTexture>(&scene.textures[t]);
+        if (!wanted) continue;
+        for (const Shape& s : scene.description.shapes) {
+            if (s.material != material) continue;
+            const auto* mesh = std::get_if<MeshShape>(&s.geometry);
+            const auto has = [&](const MeshAttribute& a) { return a.name == wanted->name; };
+            if (!mesh || std::none_of(mesh->data->attributes.begin(), mesh->data->attributes.end(), has))
+                throw Error(s.where.text() + ": the material of this shape looks up the attribute '" + wanted->name + "', which the shape does not have");
+        }
+    }
+}
+
 }  // namespace
 
 void compile_materials(Scene& scene) {
@@ -77,10 +100,12 @@ void compile_materials(Scene& scene) {
         const Material& m = d.materials[i];
         MaterialSides sides;
         if (used[i]) {
+            const std::size_t first_texture = scene.textures.size();
             sides.front = sides.back = add_side(scene, m.front, sides);
             sides.two_sided = m.two_sided;
             if (m.back) sides.back = add_side(scene, *m.back, sides);
             if (m.two_sided) scene.effects |= {Effect::two_sided};
+            check_attributes(scene, static_cast<std::uint32_t>(i), first_texture);
         }
         scene.materials.push_back(sides);
     }

@@ -47,6 +47,7 @@ public:
     void add_mesh(std::span<const Vec3f> vertices, std::span<const std::array<std::uint32_t, 3>> triangles);
     void add_sphere(const AnalyticSphere& sphere);
     void add_disk(const AnalyticDisk& disk);
+    void add_cylinder(const AnalyticCylinder& cylinder);
     /// Builds the BVH with all of TBB's threads. Once more: builds it anew.
     /// @param robust  false only to measure what it costs: rays then slip through edges
     void commit(bool robust = true);
