@@ -64,7 +64,7 @@ Reference obtain_reference(const Experiment& e, const BenchScene& s, const Regis
     require_writable(file);
     fmt::print(stderr, "koksma: there is no reference for {} yet; rendering it (kept in {})\n", s.what.name, file.parent_path().string());
     Progress progress("reference " + s.what.name, true);
-    Reference reference = make_reference(s.scene, s.plan, s.key, e, e.reference.spp, registry, threads, [&](double f) { progress.update(f); });
+    Reference reference = make_reference(s.scene, s.plan, s.key, e, e.reference.spp, registry, threads, [&](double f) { progress.update(f); }, steps_of(file));
     save_reference(file, reference);
     return reference;
 }
