@@ -10,6 +10,7 @@
 #include "report.h"
 #include "row_store.h"
 #include "scene_setup.h"
+#include "summary_images.h"
 #include "trials.h"
 
 #include <koksma/film/atomic_file.h>
@@ -221,6 +222,7 @@ int run_bench(const BenchCommand& command, const Registry& registry, const std::
         for (std::size_t i = 0; i < run.scenes.size(); ++i) {
             Json entry = scene_json(run.scenes[i], judges[i]);
             if (shard.part == 1) entry["picture"] = render_picture(run.experiment, run.scenes[i], registry, out, command.threads);
+            save_reference_images(out, run.scenes[i].what.name, references[i]);
             write_crops(entry, run.scenes[i], references[i], rows, run.experiment.crop_spp, out);
             header["scenes"].push_back(entry);
         }
