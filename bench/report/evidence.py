@@ -47,7 +47,7 @@ class ImageError:
     spectrum: tuple[float, ...]
     blurred: tuple[tuple[float, Estimate], ...]
     median_gain: float | None
-    z_rms: float
+    z_median: float | None
     error: Picture
     bias: Picture
 
@@ -124,10 +124,10 @@ def _image_error(sampler: Node, maps: dict[str, np.ndarray], top: float) -> Imag
     return ImageError(sampler.at("sampler").name(), sampler.at("label").name(), node.at("spp").integer(1), node.at("replicates").integer(2),
                       tuple(item.number(0) for item in node.at("spectrum").items()),
                       tuple((item.at("sigma").number(0), _estimate(item.at("rmse"))) for item in node.at("blurred").items()),
-                      node.at("median_pixel_gain").number_or_none(0), node.at("bias_z_rms").number(0),
+                      node.at("median_pixel_gain").number_or_none(0), node.at("bias_z_median").number_or_none(0),
                       # Perceptually uniform: equal steps look equal. The square root is an RMSE per pixel.
                       _png(colormaps["magma"](np.clip(np.sqrt(maps["mse"]) / top, 0, 1))),
-                      _png(colormaps["RdBu_r"](np.clip(maps["bias_z"] / 8 + 0.5, 0, 1))))
+                      _png(colormaps["RdBu_r"](np.clip(np.nan_to_num(maps["bias_z"]) / 8 + 0.5, 0, 1))))
 
 
 def _png(rgba: np.ndarray) -> Picture:

@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <fstream>
@@ -101,13 +102,16 @@ void add_image_errors(const std::filesystem::path& folder, const Json& header, c
                 write_map(folder / file, *values, width, height);
                 maps[kind] = file;
             }
-            double z2 = 0;
-            for (const double z : r.pixels.bias_z) z2 += z * z / static_cast<double>(r.pixels.bias_z.size());
+            std::vector<double> sizes;
+            for (const double z : r.pixels.bias_z)
+                if (std::isfinite(z)) sizes.push_back(std::abs(z));
+            const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+            if (!sizes.empty()) std::nth_element(sizes.begin(), middle, sizes.end());
             s["image_error"] = {{"spp", spp},
                                 {"replicates", r.images.size()},
                                 {"spectrum", error_spectrum(r.images, mean, width, height)},
                                 {"blurred", blurred_json(r, mean, width, height)},
-                                {"bias_z_rms", std::sqrt(z2)},
+                                {"bias_z_median", sizes.empty() ? Json() : Json(*middle)},
                                 {"median_pixel_gain", random == found.end() || random == at ? Json() : number(median_pixel_gain(r.pixels.mse, random->second.pixels.mse))},
                                 {"maps", maps}};
         }

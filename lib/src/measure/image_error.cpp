@@ -84,7 +84,7 @@ PixelStatistics pixel_statistics(const std::vector<std::vector<float>>& images, 
         const double variance = around / (n - 1), error = std::sqrt(variance / n + noise);
         s.mse.push_back(squares / n);
         s.variance.push_back(variance);
-        s.bias_z.push_back(error > 0 ? mean / error : 0);
+        s.bias_z.push_back(variance > 0 ? mean / error : std::numeric_limits<double>::quiet_NaN());
     }
     return s;
 }

@@ -10,7 +10,7 @@ namespace koksma {
 struct PixelStatistics {
     std::vector<double> mse;       ///< mean over replicates of the squared error against the reference
     std::vector<double> variance;  ///< of one replicate, unbiased
-    std::vector<double> bias_z;    ///< (mean - reference) over its standard error, which holds the reference's; t-like with R - 1 degrees; 0 where there is no error
+    std::vector<double> bias_z;    ///< (mean - reference) over its standard error, which holds the reference's; t-like with R - 1 degrees; NaN where all replicates agree: few that found nothing say nothing
 };
 /// @param  images              replicates, each of shape (height, width, 3)
 /// @param  reference_variance  of the reference's mean
