@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <cstdio>
+#include <unistd.h>
+
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -32,7 +34,7 @@ namespace koksma::test {
 /// Lives as long as this object.
 class File {
 public:
-    explicit File(const std::string& text) : path((std::filesystem::temp_directory_path() / "koksma_test_matrices=a:b.txt").string()) {
+    explicit File(const std::string& text) : path((std::filesystem::temp_directory_path() / ("koksma_test_matrices=a:b_" + std::to_string(::getpid()) + ".txt")).string()) {
         std::ofstream(path) << text;
     }
     ~File() { std::remove(path.c_str()); }

@@ -7,6 +7,8 @@
 
 #include <cmath>
 #include <cstdio>
+#include <unistd.h>
+
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -121,7 +123,7 @@ TEST_CASE("bluenoise: pixels a tile apart are not equal", "[unit][samplers]") {
 }
 
 TEST_CASE("bluenoise: a table is read from a file, named by its content, and refused if it is another", "[unit][samplers]") {
-    const auto path = (std::filesystem::temp_directory_path() / "koksma_test_keys.txt").string();
+    const auto path = (std::filesystem::temp_directory_path() / ("koksma_test_keys_" + std::to_string(::getpid()) + ".txt")).string();
     std::ofstream(path) << "// a tile of two pixels\n1, 2, 1, 1, 3, 8,\n5,131073\n";
     Registry registry;
     registry.add<BlueNoiseSampler>();

@@ -8,6 +8,8 @@
 
 #include <bit>
 #include <cstdio>
+#include <unistd.h>
+
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -41,7 +43,7 @@ double value(std::size_t i) { return static_cast<double>(i * 37 % 256) / 256; }
 
 class File {
 public:
-    File(const std::string& name, const std::string& bytes) : path((std::filesystem::temp_directory_path() / ("koksma_test_" + name)).string()) {
+    File(const std::string& name, const std::string& bytes) : path((std::filesystem::temp_directory_path() / ("koksma_test_" + std::to_string(::getpid()) + "_" + name)).string()) {
         std::ofstream(path, std::ios::binary) << bytes;
     }
     ~File() { std::remove(path.c_str()); }
