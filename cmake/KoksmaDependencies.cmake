@@ -20,6 +20,7 @@ find_package(fmt REQUIRED CONFIG)
 find_package(nlohmann_json 3 REQUIRED CONFIG)
 find_package(CLI11 REQUIRED CONFIG)
 find_package(Threads REQUIRED)
+find_package(ZLIB REQUIRED)
 find_package(hwy REQUIRED CONFIG)
 
 # stb has no CMake package.

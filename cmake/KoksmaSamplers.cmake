@@ -1,7 +1,8 @@
 # Samplers as plug-ins, in this tree and out of it: no central list, no static initialisers.
 
 # koksma_add_sampler(<name> TYPE <C++ type> HEADER <header> [SOURCES <file>...] [LINK <target>...])
-#   Declares a sampler. It sees koksma/sampling, and what it links, and nothing else of Koksma.
+#   Declares a sampler. It sees koksma/sampling, and what it links, and nothing else of Koksma; one with vectorised sources links
+#   koksma::simd.
 function(koksma_add_sampler name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "TYPE;HEADER" "SOURCES;LINK")
   if(NOT arg_TYPE OR NOT arg_HEADER OR arg_UNPARSED_ARGUMENTS)
@@ -16,6 +17,8 @@ function(koksma_add_sampler name)
     add_library(${target} STATIC ${arg_SOURCES})
     koksma_target(${target})
     target_link_libraries(${target} PUBLIC koksma::sampling ${arg_LINK})
+    # A source that is compiled once for each instruction set includes itself, by its name (koksma/simd/each_target.h).
+    target_include_directories(${target} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
   else()
     add_library(${target} INTERFACE)
     target_link_libraries(${target} INTERFACE koksma::sampling ${arg_LINK})

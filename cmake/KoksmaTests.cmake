@@ -27,5 +27,6 @@ function(koksma_add_test name)
   endif()
   # Catch's script cannot carry a list of labels; ctest -L and -LE search within a label, so "hard-slow" is found by both words.
   list(JOIN arg_LABELS "-" labels)
-  catch_discover_tests(test_${name} TEST_PREFIX "${name}: " DISCOVERY_MODE PRE_TEST PROPERTIES LABELS "${labels}" TIMEOUT 600)
+  catch_discover_tests(test_${name} TEST_PREFIX "${name}: " DISCOVERY_MODE PRE_TEST PROPERTIES LABELS "${labels}" TIMEOUT 600
+                       SKIP_REGULAR_EXPRESSION "SKIPPED: ")
 endfunction()

@@ -18,7 +18,7 @@ struct HaltonTable {
     HaltonTable() : bases(kPrimeCount) {
         std::size_t size = 0;
         for (const std::uint32_t p : kPrimes) size += p;
-        inverses.resize(size);
+        inverses.resize(size + 1);  // vectorised look-ups read two entries at once
         std::uint16_t* inverse = inverses.data();
         for (std::size_t d = 0; d < kPrimeCount; ++d) {
             const std::uint32_t p = kPrimes[d];
@@ -71,43 +71,34 @@ ShortFraction mirrored_short(const HaltonBase& b, std::uint64_t n) noexcept {
 }
 bool is_short(const HaltonBase& b, std::uint64_t index) noexcept { return index < (1u << 26) && index * b.base <= (1u << 26); }
 
-/// The image of a digit under the permutation that 56 bits of a hash select: d -> a / (d + c) + e (mod base), with 1/0 = 0.
-/// The outer affine map makes the images of one digit, and of any two, exactly as likely as under a uniformly random
-/// permutation, and that is all that the variance of a scrambled estimate depends on; the inverse in between breaks the
-/// arithmetic progressions that an affine map would leave in bases above the number of samples.
-/// Source: for the inverse, Eichenauer and Lehn 1986, "A non-linear congruential pseudo random number generator"
-std::uint32_t permuted_digit(const HaltonBase& b, std::uint32_t digit, std::uint64_t hash) noexcept {
-    const auto below = [](std::uint64_t bits, int width, std::uint32_t n) { return static_cast<std::uint32_t>((bits * n) >> width); };
-    const std::uint32_t e = below(hash & 0xfffffu, 20, b.base);
-    const std::uint32_t a = 1 + below((hash >> 20) & 0x3ffffu, 18, b.base - 1);
-    std::uint32_t x = digit + below((hash >> 38) & 0x3ffffu, 18, b.base);
-    if (x >= b.base) x -= b.base;
-    const std::uint32_t y = a * b.inverse[x] + e;
-    return y - b.quotient(y) * b.base;
-}
-
-/// A point of the scrambled sequence. Digits are permuted to the last one that a float can tell apart, so also the zeros
-/// that follow the digits of the index.
+/// A point of the scrambled sequence: the digits of the index are permuted, and the zeros that follow them too, down to the last
+/// that a float can tell apart.
 /// @tparam nested  each permutation depends on the digits before (owen), or on the place alone (digits)
 template <bool nested>
-float scrambled(const HaltonBase& b, std::uint64_t index, std::uint64_t key) noexcept {
-    std::uint64_t n = index, before = 0, weight = 1, cell = 0;
-    for (std::uint32_t place = 0;; ++place) {
-        const std::uint64_t q = b.quotient(n);
-        const auto digit = static_cast<std::uint32_t>(n - q * b.base);
-        const std::uint64_t hash = mix64(key ^ ((std::uint64_t{place} << 32) | before));
-        const std::uint32_t image = permuted_digit(b, digit, hash);
-        if (place + 1 == b.digits) {
-            const double rest = static_cast<double>(static_cast<std::int64_t>(hash >> 56)) * 0x1p-8;
-            return stratum_float(cell, b.cells, b.scale, (image + rest) * b.inverse_base);
-        }
-        cell = cell * b.base + image;
-        if constexpr (nested) {
-            before += digit * weight;
-            weight *= b.base;
-        }
-        n = q;
+float scrambled(const HaltonBase& b, std::uint64_t index, Key key) noexcept {
+    std::uint64_t n = index;
+    std::uint32_t before = 0, weight = 1, cell = 0;  // of the digits so far: their number, base^places, and the number of their images
+    const auto digit = [&] { return static_cast<std::uint32_t>(n - b.quotient(n) * b.base); };
+    const auto zeros = [&] { return keyed_hash(key, kZeroImages | before); };
+    const auto permutation = [&](std::uint32_t place) { return keyed_hash(key, (place << 24) | before); };
+
+    std::uint32_t place = 0;
+    for (; n != 0 && place + 1 < b.digits; ++place) {
+        const std::uint32_t d = digit();
+        cell = cell * b.base + permuted_digit(b, d, product_high(zeros() * weight, b.base), permutation(place));
+        if constexpr (nested) before += d * weight;
+        weight *= b.base;
+        n = b.quotient(n);
     }
+    // The places up to that of the finest strata, if the index has no digits there.
+    const std::uint32_t left = static_cast<std::uint32_t>(b.cells) / weight;
+    cell = cell * left + product_high(zeros() * weight, left);
+    // What is within a stratum: the rest of the same number, and the one digit of the index that matters there.
+    const std::uint32_t rest = zeros() * static_cast<std::uint32_t>(b.cells);
+    double position = rest * 0x1p-32;
+    if (const std::uint32_t d = digit(); d != 0)
+        position = (permuted_digit(b, d, product_high(rest, b.base), permutation(place)) + (rest * b.base) * 0x1p-32) * b.inverse_base;
+    return stratum_float(cell, b.cells, b.scale, position);
 }
 
 HaltonSampler::Randomize parse(const std::string& name) {
@@ -156,17 +147,18 @@ float HaltonSampler::Point::value(std::uint32_t dimension) const noexcept {
         case Randomize::shift: return unit_float(radical_inverse_bits(b, index_) + keyed_hash(key_, dimension));
         case Randomize::digits:
             if (b.base == 2) return unit_float(radical_inverse_bits(b, index_) ^ keyed_hash(key_, dimension));
-            return scrambled<false>(b, index_, mix64(digit_key_ ^ dimension));
+            return scrambled<false>(b, index_, split_key(mix64(digit_key_ ^ dimension)));
         case Randomize::owen: break;
     }
     if (b.base == 2) return unit_float(reverse_bits(owen_hash_rev(static_cast<std::uint32_t>(index_), keyed_hash(key_, dimension))));
-    return scrambled<true>(b, index_, mix64(digit_key_ ^ dimension));
+    return scrambled<true>(b, index_, split_key(mix64(digit_key_ ^ dimension)));
 }
 
 SamplerInfo HaltonSampler::info() {
     return {.name = "halton",
             .title = "Halton",
             .paper = "Halton 1964, Algorithm 247: Radical-inverse quasi-random point sequence",
+            .version = 2,
             .options = {{.name = "randomize",
                          .default_value = "owen",
                          .values = {"none", "cp", "digits", "owen"},

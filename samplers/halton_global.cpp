@@ -43,6 +43,7 @@ SamplerInfo HaltonGlobalSampler::info() {
     return {.name = "halton-global",
             .title = "Halton over the image",
             .paper = "Gruenschloss, Raab and Keller 2012, Enumerating quasi-Monte Carlo point sequences in elementary intervals",
+            .version = 2,
             .options = {{.name = "randomize",
                          .default_value = "owen",
                          .values = {"none", "cp", "digits", "owen"},

@@ -5,6 +5,9 @@
 
 namespace koksma {
 
+/// The counter that gives a pixel the key of its orders.
+inline constexpr std::uint64_t kPaddedOrders = 0x6f72646572ull;
+
 /// A permutation of the 64-bit indices that maps every aligned block of 2^m, m <= 32, to an aligned block of 2^m: where all
 /// such blocks of a sequence are nets, they still are after it. Digits above the 32nd choose the permutation and stay.
 /// @param key      one per pixel, of this purpose alone

@@ -23,7 +23,7 @@ public:
     class Point {
     public:
         Point(Key pixel, std::uint64_t index, bool randomized) noexcept
-            : orders_(derive_key(pixel, 0x6f72646572ull)), shifts_(pixel), index_(index), randomized_(randomized) {}
+            : orders_(derive_key(pixel, kPaddedOrders)), shifts_(pixel), index_(index), randomized_(randomized) {}
 
         [[nodiscard]] float get_1d(const Slot& slot) const noexcept { return value(place(slot.dimension), kR1, slot.dimension); }
         [[nodiscard]] glm::vec2 get_2d(const Slot& slot) const noexcept {
@@ -64,6 +64,8 @@ public:
     [[nodiscard]] Point point(Pixel pixel, std::uint64_t index) const noexcept {
         return {randomized_ ? keys_(pixel) : Key{}, index, randomized_};
     }
+    /// Vectorised.
+    void fill(std::span<const SampleId> samples, SlotRun run, float* out, std::size_t stride) const noexcept;
 
 private:
     PixelKeys keys_;

@@ -51,6 +51,8 @@ public:
 
     /// @note  slots must end at or below dimension 256 (SampleSource draws the others from the tail)
     [[nodiscard]] Point point(Pixel pixel, std::uint64_t index) const noexcept { return {*this, fixed_ ? Key{} : keys_(pixel), index}; }
+    /// Vectorised.
+    void fill(std::span<const SampleId> samples, SlotRun run, float* out, std::size_t stride) const noexcept;
 
 private:
     PixelKeys keys_;

@@ -111,6 +111,8 @@ public:
 
     /// An index of spp or above falls into the strata of index mod spp, with a jitter of its own.
     [[nodiscard]] Point point(Pixel pixel, std::uint64_t index) const noexcept { return {*this, keys_(pixel), index}; }
+    /// Vectorised.
+    void fill(std::span<const SampleId> samples, SlotRun run, float* out, std::size_t stride) const noexcept;
 
 private:
     [[nodiscard]] std::uint64_t rotation(Key key) const noexcept { return (keyed_hash(key, 0) * count_) >> 32; }

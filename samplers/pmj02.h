@@ -12,6 +12,7 @@
 namespace koksma {
 
 inline constexpr std::uint32_t kPmjTables = 8, kPmjPoints = 4096;
+inline constexpr std::uint64_t kPmjOrders = ~std::uint64_t{0};  ///< a counter that no sample index takes
 
 /// In units of 2^-16: x of point i of table t is [2 * (t * kPmjPoints + i)], y follows it.
 [[nodiscard]] const std::uint16_t* pmj_tables() noexcept;
@@ -23,7 +24,7 @@ public:
     class Point {
     public:
         Point(const std::uint16_t* tables, Key pixel, std::uint64_t index, Randomize randomize) noexcept
-            : tables_(tables), values_(pixel), orders_(derive_key(pixel, ~std::uint64_t{0})), fine_(derive_key(pixel, index)),
+            : tables_(tables), values_(pixel), orders_(derive_key(pixel, kPmjOrders)), fine_(derive_key(pixel, index)),
               index_(static_cast<std::uint32_t>(index % kPmjPoints)), randomize_(randomize) {}
 
         [[nodiscard]] float get_1d(const Slot& slot) const noexcept { return value(*entry(slot.dimension), slot.dimension); }
@@ -49,6 +50,8 @@ public:
     [[nodiscard]] Point point(Pixel pixel, std::uint64_t index) const noexcept {
         return {pmj_tables(), randomize_ == Randomize::none ? Key{} : keys_(pixel), index, randomize_};
     }
+    /// Vectorised.
+    void fill(std::span<const SampleId> samples, SlotRun run, float* out, std::size_t stride) const noexcept;
 
 private:
     PixelKeys keys_;

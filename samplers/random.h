@@ -27,6 +27,8 @@ public:
     [[nodiscard]] Point point(Pixel pixel, std::uint64_t index) const noexcept {
         return {derive_key(pixel_key(seed_, pixel), index)};
     }
+    /// Vectorised.
+    void fill(std::span<const SampleId> samples, SlotRun run, float* out, std::size_t stride) const noexcept;
 
 private:
     std::uint64_t seed_;

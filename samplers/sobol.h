@@ -81,6 +81,8 @@ public:
     [[nodiscard]] Point point(Pixel pixel, std::uint64_t index) const noexcept {
         return {matrices_, keys_(pixel), index, randomize_};
     }
+    /// Vectorised.
+    void fill(std::span<const SampleId> samples, SlotRun run, float* out, std::size_t stride) const noexcept;
 
 private:
     PixelKeys keys_;

@@ -62,7 +62,7 @@ public:
     class Point {
     public:
         Point(const JointPlace* places, Key pixel, std::uint64_t index) noexcept
-            : places_(places), orders_(derive_key(pixel, 0x6f72646572ull)), values_(pixel), index_(index) {}
+            : places_(places), orders_(derive_key(pixel, kPaddedOrders)), values_(pixel), index_(index) {}
 
         [[nodiscard]] float get_1d(const Slot& slot) const noexcept {
             const JointPlace place = places_[slot.dimension];
@@ -102,6 +102,8 @@ public:
 
     /// @note  draws the slots of the plan's layout only
     [[nodiscard]] Point point(Pixel pixel, std::uint64_t index) const noexcept { return {places_.data(), keys_(pixel), index}; }
+    /// Vectorised.
+    void fill(std::span<const SampleId> samples, SlotRun run, float* out, std::size_t stride) const noexcept;
 
 private:
     PixelKeys keys_;

@@ -13,7 +13,7 @@ class SobolPaddedSampler {
 public:
     class Point {
     public:
-        Point(Key pixel, std::uint64_t index) noexcept : orders_(derive_key(pixel, 0x6f72646572ull)), values_(pixel), index_(index) {}
+        Point(Key pixel, std::uint64_t index) noexcept : orders_(derive_key(pixel, kPaddedOrders)), values_(pixel), index_(index) {}
 
         [[nodiscard]] float get_1d(const Slot& slot) const noexcept {
             return value(static_cast<std::uint32_t>(shuffled_index(index_, orders_, slot.dimension)), slot.dimension);
@@ -47,6 +47,8 @@ public:
     SobolPaddedSampler(const SamplerOptions& options, const SamplingPlan& plan) : keys_(options, plan, 0x736f706164ull) {}
 
     [[nodiscard]] Point point(Pixel pixel, std::uint64_t index) const noexcept { return {keys_(pixel), index}; }
+    /// Vectorised.
+    void fill(std::span<const SampleId> samples, SlotRun run, float* out, std::size_t stride) const noexcept;
 
 private:
     PixelKeys keys_;

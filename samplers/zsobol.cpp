@@ -3,35 +3,6 @@
 #include <algorithm>
 
 namespace koksma {
-namespace {
-
-/// The permutations of {0, 1, 2, 3}, two bits an image, that of 0 in the lowest.
-constexpr std::array<std::uint8_t, 24> make_permutations() {
-    std::array<std::uint8_t, 24> all{};
-    std::size_t n = 0;
-    for (unsigned a = 0; a < 4; ++a)
-        for (unsigned b = 0; b < 4; ++b)
-            for (unsigned c = 0; c < 4; ++c)
-                if (a != b && a != c && b != c) all[n++] = static_cast<std::uint8_t>(a | (b << 2) | (c << 4) | ((6 - a - b - c) << 6));
-    return all;
-}
-constexpr std::array<std::uint8_t, 24> kPermutations = make_permutations();
-
-}  // namespace
-
-std::uint64_t permute_digits4(std::uint64_t n, int bits, std::uint64_t key) noexcept {
-    std::uint64_t above = 1, result = 0;  // the digits above, after a leading 1 that tells the levels apart
-    int shift = bits;
-    for (; shift >= 2;) {
-        shift -= 2;
-        const auto digit = static_cast<unsigned>(n >> shift) & 3u;
-        const std::uint64_t choice = (std::uint64_t{static_cast<std::uint32_t>(mix64(key ^ above) >> 32)} * 24) >> 32;
-        result = (result << 2) | ((kPermutations[choice] >> (2 * digit)) & 3u);
-        above = (above << 2) | digit;
-    }
-    if (shift == 1) result = (result << 1) | ((n ^ (mix64(key ^ above) >> 63)) & 1u);
-    return result;
-}
 
 SamplerInfo ZSobolSampler::info() {
     return {.name = "zsobol",

@@ -25,11 +25,48 @@ namespace koksma {
     return spread(x) | (spread(y) << 1);
 }
 
+[[nodiscard]] constexpr std::uint64_t place_of(Pixel pixel) noexcept {
+    return morton(static_cast<std::uint32_t>(pixel.x) & 0xffffu, static_cast<std::uint32_t>(pixel.y) & 0xffffu);
+}
+
+/// The permutations of {0, 1, 2, 3}, two bits an image, that of 0 in the lowest.
+inline constexpr std::array<std::uint16_t, 24> kDigitPermutations = [] {
+    std::array<std::uint16_t, 24> all{};
+    std::size_t n = 0;
+    for (unsigned a = 0; a < 4; ++a)
+        for (unsigned b = 0; b < 4; ++b)
+            for (unsigned c = 0; c < 4; ++c)
+                if (a != b && a != c && b != c) all[n++] = static_cast<std::uint16_t>(a | (b << 2) | (c << 4) | ((6 - a - b - c) << 6));
+    return all;
+}();
+/// Which of them, from a hash.
+[[nodiscard]] constexpr std::uint32_t chosen_permutation(std::uint64_t hash) noexcept {
+    return static_cast<std::uint32_t>(((hash >> 32) * kDigitPermutations.size()) >> 32);
+}
+
+/// The digits of a number that were permuted so far.
+struct PermutedDigits {
+    std::uint64_t above = 1;   ///< the digits before, after a leading 1 that tells the levels apart
+    std::uint64_t images = 0;
+    constexpr void add(unsigned digit, std::uint64_t key) noexcept {
+        images = (images << 2) | ((kDigitPermutations[chosen_permutation(mix64(key ^ above))] >> (2 * digit)) & 3u);
+        above = (above << 2) | digit;
+    }
+};
+
 /// Permutes the base-4 digits of a number, each by one of the 24 permutations, chosen by a hash of the digits above it.
 /// @param n     below 2^bits
 /// @param bits  if odd, the last digit is one bit
 /// @return      below 2^bits; a bijection for each key
-[[nodiscard]] std::uint64_t permute_digits4(std::uint64_t n, int bits, std::uint64_t key) noexcept;
+[[nodiscard]] constexpr std::uint64_t permute_digits4(std::uint64_t n, int bits, std::uint64_t key) noexcept {
+    PermutedDigits digits;
+    int shift = bits;
+    for (; shift >= 2;) {
+        shift -= 2;
+        digits.add(static_cast<unsigned>(n >> shift) & 3u, key);
+    }
+    return shift == 0 ? digits.images : (digits.images << 1) | ((n ^ (mix64(key ^ digits.above) >> 63)) & 1u);
+}
 
 class ZSobolSampler {
 public:
@@ -62,8 +99,10 @@ public:
     /// An index of spp or above falls on that of index mod 2^ceil(log2(spp)).
     [[nodiscard]] Point point(Pixel pixel, std::uint64_t index) const noexcept {
         const std::uint64_t sample = index & ((std::uint64_t{1} << sample_bits_) - 1);
-        return {*this, (morton(static_cast<std::uint32_t>(pixel.x) & 0xffffu, static_cast<std::uint32_t>(pixel.y) & 0xffffu) << sample_bits_) | sample};
+        return {*this, (place_of(pixel) << sample_bits_) | sample};
     }
+    /// Vectorised.
+    void fill(std::span<const SampleId> samples, SlotRun run, float* out, std::size_t stride) const noexcept;
 
 private:
     int sample_bits_, bits_;

@@ -1,21 +1,20 @@
 #include "bench_scene.h"
-#include "line_file.h"
+#include "judge.h"
 #include "machine.h"
-#include "measure.h"
 #include "pictures.h"
 #include "png.h"
 #include "progress.h"
+#include "price.h"
 #include "reference_store.h"
+#include "replicate_images.h"
 #include "report.h"
-#include "row.h"
+#include "row_store.h"
 #include "scene_setup.h"
+#include "trials.h"
 
 #include <koksma/film/atomic_file.h>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-
-#include <algorithm>
-#include <set>
 
 namespace koksma {
 
@@ -70,7 +69,9 @@ Reference obtain_reference(const Experiment& e, const BenchScene& s, const Regis
     return reference;
 }
 
-Json scene_json(const BenchScene& s, const Reference& reference) {
+Json scene_json(const BenchScene& s, const Judge& judge) {
+    const Reference& reference = judge.reference();
+    const Errors halves = judge.between_halves();
     const auto file = find_reference(s.key);
     return {{"name", s.what.name},
             {"purpose", s.scene.description.purpose},
@@ -85,120 +86,154 @@ Json scene_json(const BenchScene& s, const Reference& reference) {
               {"replicates", reference.halves[0].replicates + reference.halves[1].replicates},
               {"se_rmse", reference.standard_error()},
               {"halves_z", require_agreement(reference)},
+              {"between_halves", {{"mae", halves.mae}, {"smape", halves.smape}, {"flip", halves.flip}}},
               {"file", file ? file->filename().string() : ""}}},
+            {"emitter_pixels", judge.emitter_pixels()},
             {"picture", nullptr},
             {"reference_crop", nullptr},
             {"crops", Json::object()}};
 }
 
-/// Every number of samples that some sampler is run at, increasing.
-std::vector<std::uint64_t> all_spp(const std::vector<std::vector<Count>>& counts) {
-    std::set<std::uint64_t> all;
-    for (const std::vector<Count>& of_sampler : counts)
-        for (const Count& c : of_sampler) all.insert(c.spp);
-    return {all.begin(), all.end()};
+Run open_run(const BenchCommand& command, const Registry& registry) {
+    Run run;
+    run.experiment = load_experiment(command.experiment);
+    if (command.quick) run.experiment = quick(run.experiment);
+    if (!command.samplers.empty()) run.experiment.samplers = command.samplers;
+    for (const std::string& spec : run.experiment.samplers) {
+        run.samplers.push_back(make_sampler(registry, spec));
+        for (std::size_t i = 0; i + 1 < run.samplers.size(); ++i)  // its renders would count twice, as replicates that they are not
+            if (run.samplers[i]->name() == run.samplers.back()->name()) throw UsageError(fmt::format("sampler {} is asked for twice", run.samplers[i]->name()));
+    }
+    run.scenes = open_scenes(run.experiment, command.scenes);
+    for (const BenchScene& s : run.scenes)
+        for (const auto& sampler : run.samplers)  // a limit is told now, not after an hour
+            static_cast<void>(sampler->bind(sampling_plan(s.scene, s.plan, run.experiment.spp.back(), 0)));
+    for (const BenchScene& s : run.scenes) run.orders.push_back(slot_orders(s.plan.layout, static_cast<std::size_t>(run.experiment.layouts)));
+    return run;
 }
 
-/// 0 where the sampler is not run at this count.
-int replicates_at(const std::vector<Count>& counts, std::uint64_t spp) {
-    for (const Count& c : counts)
-        if (c.spp == spp) return c.replicates;
-    return 0;
+/// Renders what the store has not. @return  the rows of all trials, in their order
+std::vector<Json> render_trials(const Run& run, const std::vector<PlannedTrial>& trials, const std::vector<Judge>& judges, RowStore& store, const std::filesystem::path& out,
+                                int threads) {
+    const Experiment& e = run.experiment;
+    std::vector<Json> rows;
+    std::size_t kept = 0, other_commit = 0;
+    Progress progress("bench", true);
+    double done = 0.0;
+    const double all = samples_of(trials);
+    for (const PlannedTrial& t : trials) {
+        const BenchScene& s = run.scenes[t.scene];
+        const SamplerFactory& sampler = *run.samplers[t.sampler];
+        const Row expected = identity_of(s, sampler, judges[t.scene], t.trial, e.seed, threads);
+        const bool image_kept = t.trial.layout == 0 && t.trial.spp == e.crop_spp;
+        const Json* earlier = store.find(key_of(expected));
+        if (earlier != nullptr && (!image_kept || load_replicate(out, expected))) {
+            rows.push_back(*earlier);
+            ++kept;
+            other_commit += earlier->at("commit") != expected.commit;
+        } else {
+            std::vector<float> image;
+            const Row row = measure(s, sampler, judges[t.scene], t.trial, e.seed, threads, image);
+            if (image_kept) save_replicate(out, row, image);  // before its row, so that no row is without
+            store.add(row);
+            rows.emplace_back(row);
+        }
+        done += static_cast<double>(t.trial.spp);
+        progress.update(done / all, s.what.name);
+    }
+    if (kept > 0)
+        fmt::print("{} of {} rows are from earlier runs in this folder{}; --fresh renders them again\n", kept, rows.size(),
+                   other_commit > 0 ? fmt::format(" ({} of another commit of the program: their times may be out of date)", other_commit) : "");
+    return rows;
+}
+
+/// Pictures of a scene's crops: of the reference, and of the first replicate of each sampler.
+void write_crops(Json& entry, const BenchScene& s, const Reference& reference, const std::vector<Json>& rows, std::uint64_t crop_spp, const std::filesystem::path& out) {
+    const float exposure = exposure_for(reference.mean);
+    entry["reference_crop"] = "pictures/" + s.what.name + "-reference.png";
+    write_png(out / entry["reference_crop"].get<std::string>(), reference.mean, s.what.crop.width, s.what.crop.height, exposure);
+    for (const Json& json : rows) {
+        if (json.at("scene") != s.what.name || json.at("replicate") != 0 || json.at("layout") != 0 || json.at("spp") != crop_spp) continue;
+        const Row row = json.get<Row>();
+        const auto image = load_replicate(out, row);
+        if (!image) continue;
+        const std::string name = "pictures/" + s.what.name + "-" + file_stem(row.sampler) + ".png";
+        write_png(out / name, *image, s.what.crop.width, s.what.crop.height, exposure);
+        entry["crops"][row.sampler] = name;
+    }
+}
+
+void make_folders(const std::filesystem::path& out) {
+    for (const char* name : {"pictures", "images"}) {
+        std::error_code error;
+        std::filesystem::create_directories(out / name, error);
+        if (error) throw Error(fmt::format("cannot make the folder {}: {}", (out / name).string(), error.message()));
+    }
 }
 
 }  // namespace
 
-int run_bench(const BenchCommand& command, const Registry& registry, const std::string& command_line) {
-    Experiment experiment = load_experiment(command.experiment);
-    if (command.quick) experiment = quick(experiment);
-    if (!command.samplers.empty()) experiment.samplers = command.samplers;
-    std::vector<std::unique_ptr<SamplerFactory>> samplers;
-    for (const std::string& spec : experiment.samplers) {
-        samplers.push_back(make_sampler(registry, spec));
-        for (std::size_t i = 0; i + 1 < samplers.size(); ++i)  // its renders would count twice, as replicates that they are not
-            if (samplers[i]->name() == samplers.back()->name()) throw UsageError(fmt::format("sampler {} is asked for twice", samplers[i]->name()));
-    }
-    const std::vector<BenchScene> scenes = open_scenes(experiment, command.scenes);
-    for (const BenchScene& s : scenes)
-        for (const auto& sampler : samplers)  // a limit is told now, not after an hour
-            static_cast<void>(sampler->bind(sampling_plan(s.scene, s.plan, experiment.spp.back(), 0)));
-    std::vector<std::vector<SlotOrder>> orders;
-    for (const BenchScene& s : scenes) orders.push_back(slot_orders(s.plan.layout, static_cast<std::size_t>(experiment.layouts)));
-    if (command.dry_run) {
-        print_price(experiment, scenes, samplers, registry, command.threads);
-        return 0;
-    }
-
-    const std::filesystem::path out = command.out.empty() ? std::filesystem::path("koksma-bench") / experiment.name : command.out;
-    std::error_code error;
-    std::filesystem::create_directories(out / "pictures", error);
-    if (error) throw Error(fmt::format("cannot make the folder {}: {}", (out / "pictures").string(), error.message()));
-    require_writable(out / "results.jsonl");
-
-    std::vector<Reference> references;
-    for (const BenchScene& s : scenes) references.push_back(obtain_reference(experiment, s, registry, command.threads));
-
-    // The rows go to a file of their own, which takes the old one's place when all are there.
-    const std::filesystem::path rows_file = out / "results.jsonl";
-    Json header = header_json(experiment, samplers, command_line, command.threads);
-    std::vector<Json> rows;
-    LineFile partial(out / "results.partial.jsonl");
-    {
-        Progress progress("bench", true);
-        std::vector<std::vector<Count>> counts;
-        std::uint64_t per_scene = 0;
-        for (const auto& sampler : samplers) {
-            counts.push_back(counts_of(experiment, sampler->info()));
-            per_scene += amount_of(experiment, *sampler).paths_per_pixel;
-        }
-        double done = 0.0;
-        for (std::size_t i = 0; i < scenes.size(); ++i) {
-            const BenchScene& s = scenes[i];
-            const Reference& reference = references[i];
-            Json entry = scene_json(s, reference);
-            entry["picture"] = render_picture(experiment, s, registry, out, command.threads);
-            const float exposure = exposure_for(reference.mean);
-            entry["reference_crop"] = "pictures/" + s.what.name + "-reference.png";
-            write_png(out / entry["reference_crop"].get<std::string>(), reference.mean, s.what.crop.width, s.what.crop.height, exposure);
-            // Samplers take turns within a replicate: what slows the machine down slows all of them.
-            const int most = *std::max_element(experiment.replicates.begin(), experiment.replicates.end());
-            for (int replicate = 0; replicate < most; ++replicate)
-                for (const std::uint64_t spp : all_spp(counts))
-                    for (std::size_t k = 0; k < samplers.size(); ++k) {
-                        const SamplerFactory& sampler = *samplers[k];
-                        if (replicate >= replicates_at(counts[k], spp)) continue;
-                        if (replicate > 0 && !sampler.randomized()) continue;  // it would be the same render again
-                        for (std::size_t layout = 0; layout < orders[i].size(); ++layout) {
-                            std::vector<float> image;
-                            const Trial trial{spp, replicate, static_cast<int>(layout), &orders[i][layout]};
-                            rows.push_back(measure(s, sampler, reference, trial, experiment.seed, command.threads, image));
-                            partial.add(rows.back());
-                            if (replicate == 0 && layout == 0 && spp == experiment.crop_spp) {
-                                const std::string name = "pictures/" + s.what.name + "-" + file_stem(sampler.name()) + ".png";
-                                write_png(out / name, image, s.what.crop.width, s.what.crop.height, exposure);
-                                entry["crops"][sampler.name()] = name;
-                            }
-                            done += static_cast<double>(spp);
-                            progress.update(done / (static_cast<double>(per_scene) * static_cast<double>(scenes.size())), s.what.name);
-                        }
-                    }
-            header["scenes"].push_back(entry);
-        }
-    }
-    write_atomically(rows_file, [&](const std::filesystem::path& file) {
+void write_results(const std::filesystem::path& out, const Json& header, const std::vector<Json>& rows) {
+    // The old file stays until the new one is whole.
+    write_atomically(out / "results.jsonl", [&](const std::filesystem::path& file) {
         LineFile lines(file);
         lines.add(header);
         for (const Json& row : rows) lines.add(row);
     });
-    std::filesystem::remove(out / "results.partial.jsonl", error);
+}
 
+int finish_results(const std::filesystem::path& out, bool no_report) {
     write_summary(out);
-    fmt::print("\nrows:   {}\n", rows_file.string());
-    if (command.no_report) return 0;
-    if (std::string why_not; make_report(out, why_not))
-        fmt::print("report: {}\n", (out / "report.html").string());
-    else
-        fmt::print(stderr, "koksma: the rows and the tables are complete, but there is no report.html: {}\n", why_not);
+    fmt::print("\nrows:   {}\n", (out / "results.jsonl").string());
+    if (no_report) return 0;
+    std::string why_not;
+    if (!make_report(out, why_not)) throw Error("the rows and the tables are complete, but there is no report.html: " + why_not);
+    fmt::print("report: {}\n", (out / "report.html").string());
+    return 0;
+}
+
+int run_bench(const BenchCommand& command, const Registry& registry, const std::string& command_line) {
+    const Shard shard = command.shard.empty() ? Shard{} : shard_of(command.shard);
+    const Run run = open_run(command, registry);
+    const std::vector<PlannedTrial> trials = trials_of(run, shard);
+    std::filesystem::path out = command.out.empty() ? std::filesystem::path("koksma-bench") / run.experiment.name : command.out;
+    if (shard.of > 1) out /= fmt::format("shard-{}-of-{}", shard.part, shard.of);
+    if (command.dry_run) {
+        print_price(run, trials, registry, out, command.fresh, command.threads);
+        return 0;
+    }
+    if (trials.empty()) throw UsageError(fmt::format("--shard {}: there are fewer renders than shards", command.shard));
+    make_folders(out);
+    require_writable(out / "results.jsonl");
+
+    std::vector<Reference> references;
+    std::vector<Judge> judges;
+    for (const BenchScene& s : run.scenes) references.push_back(obtain_reference(run.experiment, s, registry, command.threads));
+    for (std::size_t i = 0; i < run.scenes.size(); ++i) judges.emplace_back(run.scenes[i], references[i], registry, command.threads);
+
+    Json header = header_json(run.experiment, run.samplers, command_line, command.threads);
+    header["shard"] = {shard.part, shard.of};
+    header["trials"] = trials_of(run, {}).size();
+    RowStore store(out, command.fresh);
+    std::vector<Json> rows;
+    try {
+        rows = render_trials(run, trials, judges, store, out, command.threads);
+        for (std::size_t i = 0; i < run.scenes.size(); ++i) {
+            Json entry = scene_json(run.scenes[i], judges[i]);
+            if (shard.part == 1) entry["picture"] = render_picture(run.experiment, run.scenes[i], registry, out, command.threads);
+            write_crops(entry, run.scenes[i], references[i], rows, run.experiment.crop_spp, out);
+            header["scenes"].push_back(entry);
+        }
+    } catch (const std::exception& e) {
+        const std::size_t kept = store.give_up();
+        if (kept == 0) throw;
+        throw Error(fmt::format("{}; {} rows are kept in {}, and the same command goes on from there", e.what(), kept, store.partial_file().string()));
+    }
+    write_results(out, header, rows);
+    store.finish();
+    if (shard.of == 1) return finish_results(out, command.no_report);
+    // A part has rows and pictures; tables and a report are for the whole.
+    fmt::print("rows:   {}\nwhen all {} parts are there: koksma merge FOLDER... -o OUT\n", (out / "results.jsonl").string(), shard.of);
     return 0;
 }
 

@@ -49,6 +49,23 @@ nlohmann::ordered_json stats_json(const SceneSetup& setup, const RenderResult& r
             {"embree", Accelerator::version()}};
 }
 
+/// The channels of Mitsuba's integrator of that name: X, Y, Z of the image, and of the samples' squares.
+void add_moments(ExrImage& exr, const Film& film, const std::string& name) {
+    const PixelRect rect = film.rect();
+    const char* axes[3] = {".X", ".Y", ".Z"};
+    std::vector<float>* planes[6];
+    for (std::size_t c = 0; c < 3; ++c) {
+        planes[c] = &exr.channels[name + axes[c]];
+        planes[3 + c] = &exr.channels["m2_" + name + axes[c]];
+    }
+    for (std::int32_t y = rect.y; y < rect.y + rect.height; ++y)
+        for (std::int32_t x = rect.x; x < rect.x + rect.width; ++x) {
+            const Vec3d first = xyz_of(film.mean({x, y})), second = film.second_moment({x, y});
+            const double values[6] = {first.x, first.y, first.z, second.x, second.y, second.z};
+            for (std::size_t c = 0; c < 6; ++c) planes[c]->push_back(static_cast<float>(values[c]));
+        }
+}
+
 ExrImage image_of(const RenderCommand& command, const SceneSetup& setup, const RenderResult& result) {
     ExrImage exr;
     const PixelRect rect = setup.rect();
@@ -59,6 +76,7 @@ ExrImage image_of(const RenderCommand& command, const SceneSetup& setup, const R
     exr.display_width = setup.scene.film.width;
     exr.display_height = setup.scene.film.height;
     exr.set_rgb(result.film.image());
+    if (result.film.has_moments()) add_moments(exr, result.film, setup.plan.integrator.moments);
     std::string defines;
     for (const std::string& d : command.scene.defines) defines += (defines.empty() ? "" : "\n") + d;
     exr.attributes = {{"koksma:version", version()},

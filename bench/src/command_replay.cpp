@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
 #include <sstream>
 
 namespace koksma {
@@ -21,10 +22,19 @@ SceneArguments with_settings_of(SceneArguments a, const ExrImage& image, const s
     };
     if (a.scene.empty()) a.scene = get("scene");
     if (!a.sampler) a.sampler = get("sampler");
-    if (!a.spp) a.spp = std::stoull(get("spp"));
-    if (!a.seed) a.seed = std::stoull(get("seed"));
-    if (!a.max_depth) a.max_depth = std::stoi(get("max_depth"));
-    if (!a.rr_depth) a.rr_depth = std::stoi(get("rr_depth"));
+    const auto number = [&]<class T>(const char* key, std::optional<T>& value) {
+        if (value) return;
+        const std::string text = get(key);
+        T parsed{};
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), parsed);
+        if (error != std::errc{} || end != text.data() + text.size())
+            throw Error(fmt::format("{}: its attribute koksma:{} is '{}', expected an integer; give the value on the command line", file, key, text));
+        value = parsed;
+    };
+    number("spp", a.spp);
+    number("seed", a.seed);
+    number("max_depth", a.max_depth);
+    number("rr_depth", a.rr_depth);
     if (a.defines.empty()) {
         std::istringstream lines(get("defines"));
         for (std::string line; std::getline(lines, line);) a.defines.push_back(line);
@@ -40,7 +50,9 @@ int run_replay(const ReplayCommand& command, const Registry& registry) {
     if (!command.from.empty()) {
         const ExrImage image = read_exr(command.from);
         arguments = with_settings_of(arguments, image, command.from.string());
-        wanted_hash = image.attributes.at("koksma:scene_hash");
+        const auto hash = image.attributes.find("koksma:scene_hash");
+        if (hash == image.attributes.end()) throw Error(fmt::format("{} was not rendered by koksma: it has no attribute koksma:scene_hash", command.from.string()));
+        wanted_hash = hash->second;
     }
     if (arguments.scene.empty()) throw UsageError("replay needs a scene, or --from an image that koksma rendered");
     const SceneSetup setup = set_up(arguments, registry);

@@ -34,14 +34,18 @@ nlohmann::ordered_json json_of(const SamplerInfo& info) {
 int run_samplers(bool json, const Registry& registry) {
     if (json) {
         nlohmann::ordered_json all = nlohmann::ordered_json::array();
-        for (const SamplerInfo& info : registry.infos()) all.push_back(json_of(info));
+        for (const SamplerInfo& info : registry.infos()) {
+            all.push_back(json_of(info));
+            all.back()["vectorised"] = registry.vectorised(info.name);
+        }
         fmt::print("{}\n", all.dump(2));
         return 0;
     }
     for (const SamplerInfo& info : registry.infos()) {
         fmt::print("{}  ({})\n", info.name, info.title);
-        fmt::print("    {}; good counts: {}; drawn jointly: {}; dimensions: {}; samples: {}\n", text(info.kind), info.good_counts.text(),
-                   info.joint == 0 ? "all" : std::to_string(info.joint), limit(info.max_dimensions), limit(info.max_samples));
+        fmt::print("    {}; good counts: {}; drawn jointly: {}; dimensions: {}; samples: {}; fill: {}\n", text(info.kind), info.good_counts.text(),
+                   info.joint == 0 ? "all" : std::to_string(info.joint), limit(info.max_dimensions), limit(info.max_samples),
+                   registry.vectorised(info.name) ? "vector" : "scalar");
         fmt::print("    {}\n", info.paper);
         if (!info.remark.empty()) fmt::print("    {}\n", info.remark);
         for (const OptionInfo& o : info.options) {

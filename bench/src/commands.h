@@ -54,9 +54,16 @@ struct BenchCommand {
     std::string experiment = "default";
     std::filesystem::path out;
     bool quick = false, dry_run = false, no_report = false;
+    bool fresh = false;                          ///< do not keep rows of earlier runs
+    std::string shard;                           ///< "k/n"; empty: all
     int threads = 0;
     std::vector<std::string> samplers;           ///< instead of the experiment's
     std::vector<std::string> scenes;             ///< only these
+};
+struct MergeCommand {
+    std::vector<std::filesystem::path> parts;
+    std::filesystem::path out;
+    bool no_report = false;
 };
 struct ReferenceCommand {
     std::string experiment = "default";
@@ -93,17 +100,29 @@ struct CardCommand {
     bool json = false;                           ///< the numbers, not the page
 };
 
+struct LimitsCommand {
+    SceneArguments settings;                     ///< its scene is set for each of `scenes`
+    std::vector<std::filesystem::path> scenes;
+    std::string kernel;
+    int rounds = 7, threads = 2;
+    bool not_robust = false, scaling = false, growth = false;
+    std::uint64_t memory_gb = 4;
+    std::filesystem::path json;
+};
+
 int run_render(const RenderCommand& command, const Registry& registry);
 int run_replay(const ReplayCommand& command, const Registry& registry);
 int run_plan(const PlanCommand& command, const Registry& registry);
 int run_compare(const CompareCommand& command);
 int run_samplers(bool json, const Registry& registry);
 int run_bench(const BenchCommand& command, const Registry& registry, const std::string& command_line);
+int run_merge(const MergeCommand& command);
 int run_reference(const ReferenceCommand& command, const Registry& registry);
 int run_check(const CheckCommand& command, const Registry& registry);
 int run_points(const PointsCommand& command, const Registry& registry);
 int run_rates(const RatesCommand& command, const Registry& registry);
 int run_card(const CardCommand& command, const Registry& registry);
+int run_limits(const LimitsCommand& command, const Registry& registry);
 int run_report(const std::filesystem::path& directory);
 
 }  // namespace koksma

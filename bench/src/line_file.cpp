@@ -13,8 +13,8 @@
 
 namespace koksma {
 
-LineFile::LineFile(std::filesystem::path file)
-    : file_(std::move(file)), descriptor_(::open(file_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0644)) {
+LineFile::LineFile(std::filesystem::path file, Mode mode)
+    : file_(std::move(file)), descriptor_(::open(file_.c_str(), O_WRONLY | O_CREAT | (mode == Mode::empty ? O_TRUNC : 0) | O_APPEND | O_CLOEXEC, 0644)) {
     if (descriptor_ < 0) throw Error(fmt::format("cannot write {}: {}", file_.string(), std::strerror(errno)));
 }
 

@@ -7,12 +7,13 @@
 
 namespace koksma {
 
-/// Starts an empty file and appends JSON objects, a line each, each by one write. A line that does not fit on the disk is
+/// Starts a file, empty or with what it holds, and appends JSON objects, a line each, each by one write. A line that does not fit on the disk is
 /// taken back.
 class LineFile {
 public:
+    enum class Mode { empty, append };
     /// @throws Error naming the file and the reason
-    explicit LineFile(std::filesystem::path file);
+    explicit LineFile(std::filesystem::path file, Mode mode = Mode::empty);
     ~LineFile();
     LineFile(const LineFile&) = delete;
     LineFile& operator=(const LineFile&) = delete;

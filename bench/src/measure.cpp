@@ -2,37 +2,43 @@
 
 #include "machine.h"
 
-#include <koksma/measure/metrics.h>
 #include <koksma/measure/seeds.h>
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <algorithm>
+#include <string>
 
 namespace koksma {
 
-Row measure(const BenchScene& s, const SamplerFactory& sampler, const Reference& reference, const Trial& trial, std::uint64_t base_seed, int threads,
-            std::vector<float>& image) {
-    const std::uint64_t spp = trial.spp;
+namespace {
+
+/// Asks a source that can say it how it fills its numbers.
+template <class Source>
+std::string fill_of(const Source& source) {
+    if constexpr (requires { static_cast<bool>(source.vectorised()); })
+        return source.vectorised() ? "vector" : "scalar";
+    else
+        return "unstated";
+}
+
+}  // namespace
+
+std::uint64_t seed_of(const BenchScene& s, const SamplerFactory& sampler, const Trial& trial, std::uint64_t base_seed) {
     const std::uint64_t base = trial.layout == 0 ? base_seed : hash_combine(base_seed, static_cast<std::uint64_t>(trial.layout));
-    const std::uint64_t seed = test_seed(base, s.key.scene_hash, sampler.name(), spp, static_cast<std::uint64_t>(trial.replicate));
-    std::unique_ptr<SampleSource> source = sampler.bind(sampling_plan(s.scene, s.plan, spp, seed));
-    if (trial.layout != 0) source = std::make_unique<PermutedSource>(std::move(source), s.plan.layout, *trial.order);
-    RenderOptions options;
-    options.threads = threads;
-    const RenderResult result = render(s.scene, s.plan, *source, {s.what.crop, 0, spp}, options);
-    image = result.film.image();
-    const ReferenceError error = compare_to_reference(image, reference.mean, reference.variance);
+    return test_seed(base, s.key.scene_hash, sampler.name(), trial.spp, static_cast<std::uint64_t>(trial.replicate));
+}
+
+Row identity_of(const BenchScene& s, const SamplerFactory& sampler, const Judge& judge, const Trial& trial, std::uint64_t base_seed, int threads) {
     static const Machine kMachine = machine();
-    const Vec3d mean = result.film.mean();
     Row row;
     row.scene = s.what.name;
     row.scene_hash = fmt::format("{:016x}", s.key.scene_hash);
     row.sampler = sampler.name();
     row.sampler_version = sampler.info().version;
     row.randomized = sampler.randomized();
-    row.spp = spp;
-    row.seed = seed;
+    row.spp = trial.spp;
+    row.seed = seed_of(s, sampler, trial, base_seed);
     row.replicate = trial.replicate;
     row.layout = trial.layout;
     row.film[0] = s.scene.film.width;
@@ -43,12 +49,30 @@ Row measure(const BenchScene& s, const SamplerFactory& sampler, const Reference&
     row.rr_depth = s.plan.integrator.rr_depth;
     row.effects = s.plan.effects.names();
     row.dimensions = s.plan.layout.dimensions();
+    row.threads = threads > 0 ? threads : kMachine.cores;
+    row.estimator_version = kEstimatorVersion;
+    row.reference = s.key.digest();
+    row.reference_content = judge.content();
+    row.commit = commit();
+    row.machine = kMachine.cpu;
+    row.isa = kMachine.isa;
+    return row;
+}
+
+Row measure(const BenchScene& s, const SamplerFactory& sampler, const Judge& judge, const Trial& trial, std::uint64_t base_seed, int threads,
+            std::vector<float>& image) {
+    Row row = identity_of(s, sampler, judge, trial, base_seed, threads);
+    std::unique_ptr<SampleSource> source = sampler.bind(sampling_plan(s.scene, s.plan, row.spp, row.seed));
+    if (trial.layout != 0) source = std::make_unique<PermutedSource>(std::move(source), s.plan.layout, *trial.order);
+    RenderOptions options;
+    options.threads = threads;
+    const RenderResult result = render(s.scene, s.plan, *source, {s.what.crop, 0, row.spp}, options);
+    image = result.film.image();
+    const Judge::Verdict verdict = judge.judge(image, trial.replicate < kFlipReplicates && trial.layout == 0);
+    const Vec3d mean = result.film.mean();
     row.kernel = result.stats.kernel;
-    row.mse = error.mse;
-    row.mse_raw = error.mse_raw;
-    row.rmse = error.mse > 0.0 ? std::sqrt(error.mse) : 0.0;
-    row.relmse = error.relmse;
-    row.relmse_raw = error.relmse_raw;
+    row.all = verdict.all;
+    row.masked = verdict.masked;
     row.mean_rgb[0] = mean.x;
     row.mean_rgb[1] = mean.y;
     row.mean_rgb[2] = mean.z;
@@ -58,12 +82,7 @@ Row measure(const BenchScene& s, const SamplerFactory& sampler, const Reference&
     row.paths = result.stats.paths;
     row.rays = result.stats.rays.closest + result.stats.rays.shadow;
     row.invalid_samples = result.stats.invalid_samples;
-    row.threads = threads > 0 ? threads : kMachine.cores;
-    row.estimator_version = kEstimatorVersion;
-    row.reference = s.key.digest();
-    row.commit = commit();
-    row.machine = kMachine.cpu;
-    row.isa = kMachine.isa;
+    row.fill = fill_of(*source);
     return row;
 }
 

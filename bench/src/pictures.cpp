@@ -14,7 +14,7 @@ std::string render_picture(const Experiment& e, const BenchScene& s, const Regis
     SceneDescription description = load_scene(s.what.file);
     FilmSettings& film = description.film;
     const double scale = static_cast<double>(e.picture_size) / std::max(film.width, film.height);
-    film = {std::max(1, static_cast<int>(film.width * scale)), std::max(1, static_cast<int>(film.height * scale)), 0, 0, 0, 0};
+    film = {std::max(1, static_cast<int>(film.width * scale)), std::max(1, static_cast<int>(film.height * scale)), 0, 0, 0, 0, film.filter};
     const Scene scene = compile(description);
     const RenderPlan plan = make_plan(scene, description.integrator);
     const auto source = registry.make(registry.contains("sobol") ? "sobol" : "random")->bind(sampling_plan(scene, plan, e.picture_spp, 0));

@@ -31,9 +31,7 @@ std::string usage_message(const CLI::App& app, const CLI::ParseError& e) {
     return fmt::format("{}; commands: {}", unknown.empty() ? "a command is required" : "unknown command '" + unknown.front() + "'", known);
 }
 
-void add_scene_options(CLI::App* app, SceneArguments& a, bool scene_required = true) {
-    CLI::Option* scene = app->add_option("scene", a.scene, "Scene file (Mitsuba 3 XML)");
-    if (scene_required) scene->required();
+void add_render_settings(CLI::App* app, SceneArguments& a) {
     app->add_option("-s,--sampler", a.sampler, "Sampler with options, as in sobol:randomize=owen (koksma samplers lists them)");
     app->add_option("-n,--spp", a.spp, "Samples per pixel")->check(not_a_count);
     app->add_option("--seed", a.seed, "Seed, below 2^63; every seed is an independent replicate (default 0)")->check(not_a_count);
@@ -41,6 +39,12 @@ void add_scene_options(CLI::App* app, SceneArguments& a, bool scene_required = t
     app->add_option("--rr-depth", a.rr_depth, "Russian roulette from this depth on");
     app->add_option("--crop", a.crop, "Render only this part of the film: X,Y,WIDTH,HEIGHT")->delimiter(',')->expected(4);
     app->add_option("-D", a.defines, "Value of a scene parameter: name=value")->take_all()->allow_extra_args(false);
+}
+
+void add_scene_options(CLI::App* app, SceneArguments& a, bool scene_required = true) {
+    CLI::Option* scene = app->add_option("scene", a.scene, "Scene file (Mitsuba 3 XML)");
+    if (scene_required) scene->required();
+    add_render_settings(app, a);
 }
 
 std::string joined(int argc, char** argv) {
@@ -81,8 +85,17 @@ int run_program(int argc, char** argv) {
     c->add_option("-s,--sampler", bench.samplers, "Samplers instead of the experiment's; may be repeated")->take_all();
     c->add_option("--scene", bench.scenes, "Only these scenes of the experiment; may be repeated")->take_all();
     c->add_option("-t,--threads", bench.threads, "Threads; 0: all")->check(CLI::Range(0, 4096));
+    c->add_flag("--fresh", bench.fresh, "Render all again, also what an earlier run in the folder has rendered");
+    c->add_option("--shard", bench.shard, "Only part k of n, as in 2/3, into FOLDER/shard-k-of-n; koksma merge puts them together");
     const std::string command_line = joined(argc, argv);
     c->final_callback([&] { action = [&] { return run_bench(bench, registry, command_line); }; });
+
+    MergeCommand merge;
+    c = app.add_subcommand("merge", "Put the parts of a bench --shard run together");
+    c->add_option("parts", merge.parts, "Folders of all parts")->required();
+    c->add_option("-o,--out", merge.out, "Folder to write to")->required();
+    c->add_flag("--no-report", merge.no_report, "Do not make report.html");
+    c->final_callback([&] { action = [&] { return run_merge(merge); }; });
 
     CompareCommand compare;
     c = app.add_subcommand("compare", "Compare two images: RMSE, relMSE and more (B is the reference)");
@@ -146,6 +159,24 @@ int run_program(int argc, char** argv) {
     c->add_option("-t,--threads", reference.threads, "Threads; 0: all")->check(CLI::Range(0, 4096));
     c->add_flag("--force", reference.force, "Remake those that exist");
     c->final_callback([&] { action = [&] { return run_reference(reference, registry); }; });
+
+    LimitsCommand limits;
+    c = app.add_subcommand("limits",
+                           "Measure the distance to the physical limit: rendering against Embree alone on the same rays (exit code 1 if the kernel's rays\n"
+                           "are not those of the reference kernel). T/E1: CPU time of a render over that of its rays asked one by one; T/Eown: over that of\n"
+                           "the kernel's own packets. Medians of per-round ratios, all in one run on one thread.");
+    c->add_option("scenes", limits.scenes, "Scene files (Mitsuba 3 XML)")->required();
+    add_render_settings(c, limits.settings);
+    c->get_option("--spp")->description("Samples per pixel (default 16)");
+    c->add_option("-r,--rounds", limits.rounds, "Interleaved rounds (default 7)")->check(CLI::Range(1, 1000));
+    c->add_option("--kernel", limits.kernel, "A kernel with at least the scenes' effects (default: the one that renders use)");
+    c->add_option("--memory", limits.memory_gb, "GB that recorded rays may take, twice (default 4)")->check(CLI::Range(1, 1024));
+    c->add_flag("--not-robust", limits.not_robust, "Diagnostic: build the BVH without Embree's robust flag, as renderers do that let rays slip through edges");
+    CLI::Option* scaling = c->add_flag("--scaling", limits.scaling, "Instead: how rendering scales with threads, beside pure arithmetic");
+    c->add_option("-t,--threads", limits.threads, "Threads of --scaling (default 2)")->check(CLI::Range(2, 4096));
+    c->add_flag("--growth", limits.growth, "Instead: time and memory against samples per pixel and against pixels")->excludes(scaling);
+    c->add_option("--json", limits.json, "Also write the figures as JSON");
+    c->final_callback([&] { action = [&] { return run_limits(limits, registry); }; });
 
     std::filesystem::path report_dir;
     c = app.add_subcommand("report", "Make summary.json and report.html again from a folder's results.jsonl");

@@ -9,13 +9,17 @@ namespace koksma {
 
 namespace {
 
-/// JSON has no NaN (the relMSE against a black reference); it is written as null.
-double number_or_nan(const nlohmann::ordered_json& j) { return j.is_null() ? std::numeric_limits<double>::quiet_NaN() : j.get<double>(); }
+/// JSON has no NaN (the relMSE against a black reference); it is written as null. Nor have rows of older programs all keys.
+double number_or_nan(const nlohmann::ordered_json& j, const char* key) {
+    const auto it = j.find(key);
+    return it == j.end() || it->is_null() ? std::numeric_limits<double>::quiet_NaN() : it->get<double>();
+}
 
 }  // namespace
 
 void to_json(nlohmann::ordered_json& j, const Row& r) {
     j = {{"kind", "render"},
+         {"row_format", kRowFormat},
          {"scene", r.scene},
          {"scene_hash", r.scene_hash},
          {"sampler", r.sampler},
@@ -32,11 +36,21 @@ void to_json(nlohmann::ordered_json& j, const Row& r) {
          {"effects", r.effects},
          {"dimensions", r.dimensions},
          {"kernel", r.kernel},
-         {"mse", r.mse},
-         {"mse_raw", r.mse_raw},
-         {"rmse", r.mse > 0.0 ? nlohmann::ordered_json(r.rmse) : nlohmann::ordered_json()},
-         {"relmse", r.relmse},
-         {"relmse_raw", r.relmse_raw},
+         {"mse", r.all.mse},
+         {"mse_raw", r.all.mse_raw},
+         {"rmse", r.all.mse > 0.0 ? nlohmann::ordered_json(std::sqrt(r.all.mse)) : nlohmann::ordered_json()},
+         {"relmse", r.all.relmse},
+         {"relmse_raw", r.all.relmse_raw},
+         {"mae", r.all.mae},
+         {"smape", r.all.smape},
+         {"flip", r.all.flip},
+         {"masked",
+          {{"pixels", r.masked.pixels},
+           {"mse", r.masked.mse},
+           {"relmse", r.masked.relmse},
+           {"mae", r.masked.mae},
+           {"smape", r.masked.smape},
+           {"flip", r.masked.flip}}},
          {"mean_rgb", {r.mean_rgb[0], r.mean_rgb[1], r.mean_rgb[2]}},
          {"wall_seconds", r.wall_seconds},
          {"cpu_seconds", r.cpu_seconds},
@@ -46,8 +60,10 @@ void to_json(nlohmann::ordered_json& j, const Row& r) {
          {"rays", r.rays},
          {"invalid_samples", r.invalid_samples},
          {"threads", r.threads},
+         {"fill", r.fill},
          {"estimator_version", r.estimator_version},
          {"reference", r.reference},
+         {"reference_content", r.reference_content},
          {"commit", r.commit},
          {"machine", r.machine},
          {"isa", r.isa}};
@@ -70,11 +86,21 @@ void from_json(const nlohmann::ordered_json& j, Row& r) {
     j.at("effects").get_to(r.effects);
     j.at("dimensions").get_to(r.dimensions);
     j.at("kernel").get_to(r.kernel);
-    j.at("mse").get_to(r.mse);
-    j.at("mse_raw").get_to(r.mse_raw);
-    r.rmse = r.mse > 0.0 ? std::sqrt(r.mse) : 0.0;
-    r.relmse = number_or_nan(j.at("relmse"));
-    r.relmse_raw = number_or_nan(j.at("relmse_raw"));
+    const auto errors = [](const nlohmann::ordered_json& from, Errors& e) {
+        e.mse = number_or_nan(from, "mse");
+        e.mse_raw = number_or_nan(from, "mse_raw");
+        e.relmse = number_or_nan(from, "relmse");
+        e.relmse_raw = number_or_nan(from, "relmse_raw");
+        e.mae = number_or_nan(from, "mae");
+        e.smape = number_or_nan(from, "smape");
+        e.flip = number_or_nan(from, "flip");
+    };
+    errors(j, r.all);
+    const nlohmann::ordered_json masked = j.value("masked", nlohmann::ordered_json::object());  // rows of older programs have none
+    errors(masked, r.masked);
+    r.masked.pixels = masked.value("pixels", std::int64_t{0});
+    r.all.pixels = std::int64_t{r.crop[2]} * r.crop[3];
+    r.fill = j.value("fill", "unstated");
     for (std::size_t i = 0; i < 3; ++i) r.mean_rgb[i] = j.at("mean_rgb").at(i);
     j.at("wall_seconds").get_to(r.wall_seconds);
     j.at("cpu_seconds").get_to(r.cpu_seconds);
@@ -85,6 +111,7 @@ void from_json(const nlohmann::ordered_json& j, Row& r) {
     j.at("threads").get_to(r.threads);
     j.at("estimator_version").get_to(r.estimator_version);
     j.at("reference").get_to(r.reference);
+    r.reference_content = j.value("reference_content", "");
     j.at("commit").get_to(r.commit);
     j.at("machine").get_to(r.machine);
     j.at("isa").get_to(r.isa);

@@ -1,6 +1,8 @@
 #pragma once
 // One line of results.jsonl: one render, measured.
 
+#include "judge.h"
+
 #include <nlohmann/json_fwd.hpp>
 
 #include <cstdint>
@@ -8,6 +10,9 @@
 #include <vector>
 
 namespace koksma {
+
+/// Bumped when rows of an older program cannot stand beside new ones.
+inline constexpr int kRowFormat = 2;
 
 struct Row {
     std::string scene, scene_hash, sampler;
@@ -21,13 +26,15 @@ struct Row {
     std::vector<std::string> effects;
     std::uint32_t dimensions = 0;
     std::string kernel;
-    double mse = 0, mse_raw = 0, rmse = 0, relmse = 0, relmse_raw = 0;  ///< mse, rmse, relmse corrected for the reference's noise
+    Errors all, masked;         ///< over the crop, and without directly visible emitters
     double mean_rgb[3] = {};
     double wall_seconds = 0, cpu_seconds = 0, sampler_seconds = 0;
     std::uint64_t paths = 0, rays = 0, invalid_samples = 0;
     int threads = 0;
+    std::string fill;           ///< how the sampler filled its numbers: "scalar", "vector", or "unstated"
     int estimator_version = 0;
     std::string reference;      ///< digest of the reference that it was compared with
+    std::string reference_content;  ///< hash of its pixels: the key does not say with how many samples it was made
     std::string commit, machine, isa;
 };
 

@@ -1,11 +1,13 @@
 #include "summary.h"
 
+#include "curve.h"
 #include "json_error.h"
 
 #include <koksma/measure/ratio.h>
 #include <koksma/measure/rmse_estimate.h>
 #include <koksma/measure/slope.h>
 #include <koksma/measure/spread.h>
+#include <koksma/measure/tails.h>
 #include <koksma/measure/time_to.h>
 #include <koksma/sampling/error.h>
 
@@ -23,41 +25,8 @@ namespace koksma {
 namespace {
 
 using Json = nlohmann::ordered_json;
-constexpr double kConfidence = 0.95;
 
-Json number(double x) { return std::isfinite(x) ? Json(x) : Json(); }
-
-/// The replicates of one sampler at one spp.
-struct Point {
-    std::uint64_t spp = 0;
-    std::vector<double> mse, relmse, wall, cpu, sampler;
-    std::uint64_t invalid = 0;
-};
-using Curve = std::map<std::uint64_t, Point>;  // by spp
-
-/// @param layout  0: as the plan has it
-Curve curve_of(const std::vector<Row>& rows, const std::string& scene, const std::string& sampler, int layout = 0) {
-    Curve curve;
-    for (const Row& r : rows) {
-        if (r.scene != scene || r.sampler != sampler || r.layout != layout) continue;
-        Point& p = curve[r.spp];
-        p.spp = r.spp;
-        p.mse.push_back(r.mse);
-        p.relmse.push_back(r.relmse);
-        p.wall.push_back(r.wall_seconds);
-        p.cpu.push_back(r.cpu_seconds);
-        p.sampler.push_back(r.sampler_seconds);
-        p.invalid += r.invalid_samples;
-    }
-    return curve;
-}
-
-/// Without a randomisation all replicates are one: keep its error, drop the interval.
-std::vector<double> replicates(const std::vector<double>& values, bool randomized) {
-    return randomized ? values : std::vector<double>(values.begin(), values.begin() + 1);
-}
-
-Json point_json(const Point& p, bool randomized) {
+Json point_json(const Point& p, bool randomized, const Curve& baseline) {
     const RmseEstimate mse = rmse_estimate(replicates(p.mse, randomized), kConfidence);
     const Estimate relmse = metric_estimate(replicates(p.relmse, randomized), kConfidence);
     const Estimate cpu = mean_estimate(p.cpu, kConfidence), wall = mean_estimate(p.wall, kConfidence);
@@ -75,6 +44,8 @@ Json point_json(const Point& p, bool randomized) {
             {"cpu_seconds_hi", number(cpu.hi)},
             {"wall_seconds", wall.value},
             {"sampler_share", cpu.value > 0.0 ? mean_estimate(p.sampler, kConfidence).value / cpu.value : 0.0},
+            {"fill", p.fills.size() == 1 ? p.fills.front() : "several"},
+            {"metrics", metrics_json(p, randomized, baseline)},
             {"below_floor", mse.below_floor}};
 }
 
@@ -175,6 +146,13 @@ Json layouts_json(const std::vector<Row>& rows, const std::string& scene, const 
     return out;
 }
 
+/// Whether the curve looks like the laws whose intervals were seen to cover less than they say.
+bool tails_of(const Curve& curve) {
+    std::vector<std::vector<double>> points;
+    for (const auto& [spp, p] : curve) points.push_back(p.mse);
+    return heavy_tailed(points);
+}
+
 std::string label_of(const Json& header, const std::string& sampler) {
     for (const Json& s : header.at("samplers"))
         if (s.at("sampler") == sampler) return s.at("label");
@@ -195,6 +173,10 @@ Json summarize(const Json& header, const std::vector<Row>& rows) {
     summary["experiment"]["confidence"] = kConfidence;
     std::uint64_t invalid = 0;
     double seconds = 0.0;
+    std::vector<std::vector<Contender>> contenders;
+    std::string baseline;
+    for (const Json& s : header.at("samplers"))
+        if (s.at("sampler") == "random") baseline = "random";
     for (const Row& r : rows) {
         invalid += r.invalid_samples;
         seconds += r.wall_seconds;
@@ -207,9 +189,7 @@ Json summarize(const Json& header, const std::vector<Row>& rows) {
         out["effects"] = first->effects;
         out["dimensions"] = first->dimensions;
         out["kernel"] = first->kernel;
-        std::string baseline;
-        for (const Json& s : header.at("samplers"))
-            if (const std::string spec = s.at("sampler"); spec == "random") baseline = spec;
+        contenders.emplace_back();
         const Curve base_curve = curve_of(rows, name, baseline);
         Json samplers = Json::array();
         for (const Json& s : header.at("samplers")) {
@@ -217,12 +197,14 @@ Json summarize(const Json& header, const std::vector<Row>& rows) {
             const Row* row = first_row(rows, name, spec);
             if (row == nullptr) continue;
             const Curve curve = curve_of(rows, name, spec);
+            contenders.back().push_back({spec, row->randomized, curve});
             Json points = Json::array();
-            for (const auto& [spp, p] : curve) points.push_back(point_json(p, row->randomized));
+            for (const auto& [spp, p] : curve) points.push_back(point_json(p, row->randomized, base_curve));
             Json entry = {{"sampler", spec},
                           {"label", label_of(header, spec)},
                           {"randomized", row->randomized},
                           {"points", points},
+                          {"heavy_tailed", row->randomized && tails_of(curve)},
                           {"slope", slope_json(curve, row->randomized)},
                           {"time_to", times_json(curve, row->randomized, header.at("relmse_targets"))},
                           {"gain_vs_random", spec == baseline ? Json() : gain_json(curve, row->randomized, base_curve)}};
@@ -238,9 +220,11 @@ Json summarize(const Json& header, const std::vector<Row>& rows) {
             samplers.push_back(entry);
         }
         out["samplers"] = samplers;
+        out["pairs"] = pairs_json(contenders.back());
         out.erase("crops");
         summary["scenes"].push_back(out);
     }
+    summary["across_scenes"] = across_scenes_json(contenders, baseline);
     summary["invalid_samples"] = invalid;
     summary["seconds_total"] = seconds;
     return summary;

@@ -1,8 +1,7 @@
+#include <koksma/integrators/float_mode.h>
 #include <koksma/integrators/render.h>
 #include <koksma/integrators/thread_clock.h>
 #include <koksma/sampling/error.h>
-
-#include "float_mode.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
@@ -83,7 +82,7 @@ private:
 
 /// All samples of a tile: chunk after chunk (aligned to multiples of Film::kChunk), for every pixel in turn.
 RenderStats render_tile(const Job& job, PixelRect tile, Tracer& tracer) {
-    const detail::FlushDenormals flush;
+    const FlushDenormals flush;
     const double start = thread_seconds(), idle = tracer.stats().idle_seconds;
     RenderStats stats;
     Batch batch(job, tracer, stats);
@@ -130,7 +129,7 @@ SamplingPlan sampling_plan(const Scene& scene, const RenderPlan& plan, std::uint
 RenderResult render(const Scene& scene, const RenderPlan& plan, const SampleSource& source, const WorkItem& work, const RenderOptions& options) {
     const Kernel& kernel = options.kernel != nullptr ? *options.kernel : choose_kernel(plan.effects);
     if (!kernel.effects.contains(plan.effects)) throw Error("kernel '" + std::string(kernel.name) + "' lacks an effect of the scene");
-    RenderResult result{Film(work.rect), {}};
+    RenderResult result{Film(work.rect, !plan.integrator.moments.empty()), {}};
     const Job job{work, kernel, result.film};
     const std::int32_t side = tile_side(kernel, work.count);
     const std::int32_t columns = (work.rect.width + side - 1) / side, rows = (work.rect.height + side - 1) / side;

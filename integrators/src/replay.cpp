@@ -1,8 +1,7 @@
 #include <koksma/film/film.h>
+#include <koksma/integrators/float_mode.h>
 #include <koksma/integrators/path.h>
 #include <koksma/integrators/replay.h>
-
-#include "float_mode.h"
 
 #include <fmt/format.h>
 
@@ -73,7 +72,7 @@ void tell_numbers(std::string& out, std::string_view title, const SampleSource& 
 }  // namespace
 
 std::string replay(const Scene& scene, const RenderPlan& plan, const SampleSource& source, SampleId id) {
-    const detail::FlushDenormals flush;
+    const FlushDenormals flush;
     std::string out = fmt::format("pixel ({}, {}) sample {} seed {}\n", id.pixel.x, id.pixel.y, id.index, source.seed());
     tell_numbers(out, "u camera", source, plan.layout.camera(), id);
     Draws draws(plan, source);

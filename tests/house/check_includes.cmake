@@ -95,7 +95,7 @@ foreach(file IN LISTS all_sources)
       offence("${file}" "${name}" "embree.h is for lib/src/scene/accelerator.cpp alone")
     elseif(name MATCHES "^(hwy|xsimd|Vc|eve)/|^experimental/simd$|intrin\\.h$|^arm_neon\\.h$" AND NOT file MATCHES "^lib/(include/koksma|src)/simd/")
       # The control register that flushes denormals has no other name.
-      if(NOT (file STREQUAL "integrators/src/float_mode.h" AND name MATCHES "^[xp]mmintrin\\.h$"))
+      if(NOT (file STREQUAL "integrators/include/koksma/integrators/float_mode.h" AND name MATCHES "^[xp]mmintrin\\.h$"))
         offence("${file}" "${name}" "SIMD goes through koksma/simd")
       endif()
     endif()

@@ -18,7 +18,7 @@ function(make_clean_tree tree)
   file(WRITE ${tree}/lib/src/scene/embree.h "#  include <embree4/rtcore.h>\n")
   file(WRITE ${tree}/lib/src/scene/accelerator.cpp "#include \"embree.h\"\n#include <koksma/scene/scene.h>\n// not -march=native\n")
   file(WRITE ${tree}/lib/include/koksma/simd/pack.h "#include <hwy/highway.h>\n")
-  file(WRITE ${tree}/integrators/src/float_mode.h "#include <xmmintrin.h>\n")
+  file(WRITE ${tree}/integrators/include/koksma/integrators/float_mode.h "#include <xmmintrin.h>\n")
   file(WRITE ${tree}/integrators/src/render.cpp "#include <koksma/sampling/sample_source.h>\n#include <tbb/parallel_for.h>\n")
 endfunction()
 

@@ -110,8 +110,8 @@ TEST_CASE("growing u walks through the lights in order, each once, and starts an
     for (const Crowd crowd : {Crowd::points, Crowd::all_kinds, Crowd::powers_of_ten}) {
         const std::vector<LightLeaf> leaves = random_leaves(crowd, 100, 3);
         LightTree tree = tree_of(leaves);
-        tree.environment = 9;  // a dark light of the crowd
-        tree.environment_share = 0.25f;
+        tree.distant = {{9, 1.0f}};  // a dark light of the crowd
+        tree.distant_share = 0.25f;
         std::vector<std::uint32_t> rank(leaves.size());
         for (std::uint32_t i = 0; i < tree.leaves.size(); ++i) rank[tree.leaves[i].light] = i + 1;
         const Vec3f p{0.2f, -0.1f, 0.4f}, n{0.0f, 0.6f, 0.8f};
@@ -141,8 +141,8 @@ TEST_CASE("growing u walks through the lights in order, each once, and starts an
 TEST_CASE("the environment has its share, and all where the tree has nothing", "[lights]") {
     std::vector<LightLeaf> leaves = random_leaves(Crowd::plane, 50, 5);
     LightTree tree = build_light_tree(leaves, 51);
-    tree.environment = 50;
-    tree.environment_share = 0.5f;
+    tree.distant = {{50, 1.0f}};
+    tree.distant_share = 0.5f;
     const Vec3f below{0, -1, 0}, above{0, 1, 0}, up{0, 1, 0};
     CHECK(tree.probability(50, kWholeLight, below, up) == 0.5f);
     CHECK(tree.choose(below, up, 0.25f).light == 50);
@@ -150,7 +150,7 @@ TEST_CASE("the environment has its share, and all where the tree has nothing", "
     CHECK(tree.choose(below, up, 0.75f).light != 50);
     CHECK(tree.probability(50, kWholeLight, above, up) == 1.0f);  // the lights shine down
     CHECK(tree.choose(above, up, 0.75f).light == 50);
-    tree.environment_share = 0.0f;  // black
+    tree.distant_share = 0.0f;  // black
     CHECK(tree.probability(50, kWholeLight, below, up) == 0.0f);
     CHECK(tree.choose(above, up, 0.0f).probability == 0.0f);
     for (LightLeaf& leaf : leaves) leaf.intensity = 0;

@@ -45,6 +45,7 @@ TEST_CASE("metrics of two pixels agree with numbers by hand", "[unit][measure]")
     CHECK(e.mse == Approx((0 + 1 + 4 + 4) / 6.0));
     CHECK(e.rmse == Approx(std::sqrt(1.5)));
     CHECK(e.mae == Approx((0 + 1 + 2 + 2) / 6.0));
+    CHECK(e.smape == Approx((0 + 1 / 3.0 + 2 / 4.0 + 1) / 6.0));
     CHECK(e.max_abs == 2);
     CHECK(e.mean_a[0] == 0.5);
     CHECK(e.mean_a[1] == 1);
@@ -72,6 +73,20 @@ TEST_CASE("an error against a noisy reference is smaller by the reference's vari
     CHECK(plain.mse_floor == 0);
     CHECK(plain.mse_raw == Approx(compare_images(x, r).mse));
     CHECK(plain.relmse_raw == Approx(compare_images(x, r).relmse));
+}
+
+TEST_CASE("a mask leaves pixels out, and the denominators as they were", "[unit][measure]") {
+    const float x[] = {2, 1, 1, 5, 5, 5}, r[] = {1, 1, 1, 9, 9, 9}, v[] = {0.25f, 0.5f, 0, 1, 1, 1};
+    const unsigned char skip[] = {0, 1};
+    const ReferenceError e = compare_to_reference(x, r, v, skip);
+    CHECK(e.pixels == 1);
+    CHECK(e.mse == Approx((1 - 0.75) / 3));
+    CHECK(e.mae == Approx(1.0 / 3));
+    CHECK(e.smape == Approx(1.0 / 9));
+    CHECK(e.relmse_raw == Approx(1 / (1 + 0.01 * 25) / 3));  // the mean luminance is 5
+    const unsigned char all[] = {1, 1};
+    CHECK(std::isnan(compare_to_reference(x, r, v, all).mse));
+    CHECK_THROWS_AS(compare_to_reference(x, r, v, std::span(skip, 1)), Error);
 }
 
 TEST_CASE("the correction is unbiased for MSE and nearly so for relMSE", "[unit][measure]") {

@@ -11,11 +11,12 @@ from exr import Exr
 from harness import ProgramTest
 from test_experiment import TINY
 
-ROW = {"kind": str, "scene": str, "scene_hash": str, "sampler": str, "sampler_version": int, "randomized": bool, "spp": int,
+ROW = {"kind": str, "row_format": int, "reference_content": str, "scene": str, "scene_hash": str, "sampler": str, "sampler_version": int, "randomized": bool, "spp": int,
        "replicate": int, "layout": int, "seed": int, "film": list, "crop": list, "max_depth": int, "rr_depth": int, "effects": list,
        "dimensions": int, "kernel": str, "mse": float, "mse_raw": float, "rmse": float, "relmse": float, "relmse_raw": float,
+       "mae": float, "smape": float, "flip": float, "masked": dict,
        "mean_rgb": list, "wall_seconds": float, "cpu_seconds": float, "sampler_seconds": float, "sampler_share": float,
-       "paths": int, "rays": int, "invalid_samples": int, "threads": int, "estimator_version": int, "reference": str,
+       "paths": int, "rays": int, "invalid_samples": int, "threads": int, "fill": str, "estimator_version": int, "reference": str,
        "commit": str, "machine": str, "isa": str}
 
 
@@ -89,7 +90,9 @@ class Rows(BenchTest):
             weights = [1 / (r * r + 0.01 * luminance**2) for r in mean]
             expected = {"mse_raw": sum(squares) / 192, "mse": sum(s - v for s, v in zip(squares, variance)) / 192,
                         "relmse_raw": sum(s * w for s, w in zip(squares, weights)) / 192,
-                        "relmse": sum((s - v) * w for s, v, w in zip(squares, variance, weights)) / 192}
+                        "relmse": sum((s - v) * w for s, v, w in zip(squares, variance, weights)) / 192,
+                        "mae": sum(s ** 0.5 for s in squares) / 192,
+                        "smape": sum(abs(x - r) / (x + r or 1) for x, r in zip(image, mean)) / 192}
             for key, value in expected.items():
                 self.assertAlmostEqual(row[key], value, delta=1e-9 * abs(expected["relmse_raw"]), msg=key)
             for c, channel_mean in enumerate(row["mean_rgb"]):
@@ -271,8 +274,10 @@ class Reports(BenchTest):
 
     def test_rows_survive_without_python(self):
         self.environment["KOKSMA_PYTHON"] = "/none/python"
-        result = self.bench()
+        result = self.koksma("bench", "tiny.json", "-o", "out")
+        self.assertEqual(result.code, 1)  # what was asked for is not there
         self.assertEqual(result.err.splitlines()[-1].count("python3-jinja2"), 1)
+        self.assertIn("the rows and the tables are complete", result.err.splitlines()[-1])
         self.assertEqual(len(self.lines()[1]), 16)
         self.assertNotIn("out/report.html", self.files())
         failed = self.koksma("report", "out")

@@ -114,6 +114,16 @@ class Metadata(ProgramTest):
         self.assertEqual(self.replayed("--from", "out.exr", "--pixel", "8,12", "--sample", "0"),
                          self.replayed("scene.xml", "-s", "halton", "-n", "1", "--seed", "9", "--pixel", "8,12", "--sample", "0"))
 
+    def test_forged_settings_are_refused(self):
+        self.succeeds(*RENDER, "-o", "out.exr", "-n", "44")
+        image = self.read("out.exr")
+        at = image.index(b"koksma:spp\0string\0") + len(b"koksma:spp\0string\0") + 4
+        self.assertEqual(image[at:at + 2], b"44")
+        for forged in (b"4x", b"-4", b"  "):
+            with open(self.path("forged.exr"), "wb") as file:
+                file.write(image[:at] + forged + image[at + 2:])
+            self.refuses(1, ["replay", "--from", "forged.exr", "--pixel", "1,1", "--sample", "0"], "forged.exr", f"koksma:spp is '{forged.decode()}'", "an integer")
+
     def test_replay_refuses(self):
         self.succeeds(*RENDER, "-o", "out.exr")
         at = ["--pixel", "1,1", "--sample", "0"]

@@ -40,7 +40,7 @@ TEST_CASE("malformed XML is reported with its line and column", "[unit][scene]")
     CHECK_ERROR(files.error_of_text(""), "scene.xml:1:1", "not well-formed");
     CHECK_ERROR(files.error_of_text("<mitsuba/>"), "scene.xml:1:1", "<scene>", "<mitsuba>");
     CHECK_ERROR(files.error_of_text("<scene/>"), "scene.xml:1:1", "version");
-    CHECK_ERROR(files.error_of_text("<scene version=\"2.0.0\"/>"), "scene.xml:1:1", "2.0.0", "3.x.y");
+    CHECK_ERROR(files.error_of_text("<scene version=\"1.0.0\"/>"), "scene.xml:1:1", "1.0.0", "3.x.y");
     CHECK_ERROR(files.error_of("words"), "text 'words'");
 }
 
@@ -61,7 +61,7 @@ TEST_CASE("unknown elements, types, parameters and attributes are refused with t
     CHECK_ERROR(files.error_of("<shape/>"), "scene.xml:2:1", "needs the attribute 'type'");
     CHECK_ERROR(files.error_of("<shape type=\"cube\"><float value=\"1\"/></shape>"), "needs the attribute 'name'");
     CHECK_ERROR(files.error_of("<shape type=\"cube\"><texture type=\"checkerboard\"/></shape>"), "takes no texture here", "bsdf, emitter");
-    CHECK_ERROR(files.error_of("<integrator type=\"volpath\"/>"), "scene.xml:2:1", "'volpath'", "supported: path");
+    CHECK_ERROR(files.error_of("<integrator type=\"ptracer\"/>"), "scene.xml:2:1", "'ptracer'", "supported: path, direct");
     CHECK_ERROR(files.error_of("<float name=\"x\" value=\"1\"/>"), "scene.xml:2:1", "<float> is not supported in <scene>");
 }
 

@@ -2,7 +2,14 @@
 
 #include "scene_files.h"
 
+#include <koksma/scene/scene.h>
+
 #include <koksma_catch.h>
+
+#include <zlib.h>
+
+#include <array>
+#include <sstream>
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
@@ -313,4 +320,110 @@ TEST_CASE("the hash follows the contents of meshes and images", "[unit][scene]")
     CHECK(hash("0.0") == base);
     CHECK(hash("-0") == base);
     CHECK(hash("1e-30") != base);
+}
+
+namespace {
+
+/// One mesh as Mitsuba writes it: flags (1 normals, 2 texture coordinates, 8 colours), a triangle.
+template <class Real>
+std::string serialized_mesh(std::uint32_t flags, std::uint16_t version, float offset) {
+    std::string data;
+    const auto put = [&](const auto& value) { data.append(reinterpret_cast<const char*>(&value), sizeof value); };
+    put(flags | (sizeof(Real) == 8 ? 0x2000u : 0x1000u));
+    if (version == 4) data += std::string("name") + '\0';
+    put(std::uint64_t{3}), put(std::uint64_t{1});
+    for (const float v : {0.f, 0.f, offset, 1.f, 0.f, offset, 0.f, 1.f, offset}) put(static_cast<Real>(v));
+    if (flags & 1) for (int i = 0; i < 3; ++i) for (const Real v : {Real(0), Real(0), Real(1)}) put(v);
+    if (flags & 2) for (const Real v : {Real(0), Real(.25), Real(1), Real(.5), Real(.75), Real(1)}) put(v);
+    if (flags & 8) for (int i = 0; i < 9; ++i) put(static_cast<Real>(0.125 * i));
+    for (const std::uint32_t i : {0u, 1u, 2u}) put(i);
+    std::string packed(compressBound(static_cast<uLong>(data.size())), '\0');
+    uLongf size = static_cast<uLongf>(packed.size());
+    compress(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(data.data()), static_cast<uLong>(data.size()));
+    packed.resize(size);
+    std::string header;
+    for (const std::uint16_t v : {std::uint16_t{0x041C}, version}) header.append(reinterpret_cast<const char*>(&v), 2);
+    return header + packed;
+}
+
+std::string serialized_file(const std::vector<std::string>& meshes, std::uint16_t version) {
+    std::string file, table;
+    for (const std::string& m : meshes) {
+        const std::uint64_t at = file.size();
+        table.append(reinterpret_cast<const char*>(&at), version == 4 ? 8 : 4);
+        file += m;
+    }
+    const auto count = static_cast<std::uint32_t>(meshes.size());
+    return file + table + std::string(reinterpret_cast<const char*>(&count), 4);
+}
+
+}  // namespace
+
+TEST_CASE("serialized meshes of both versions and precisions are read by index", "[unit][scene]") {
+    const SceneFiles files;
+    for (const std::uint16_t version : {std::uint16_t{3}, std::uint16_t{4}}) {
+        const auto file = files.write("m.serialized", serialized_file({serialized_mesh<float>(0, version, 5), serialized_mesh<double>(0xB, version, 7)}, version));
+        const MeshData plain = load_serialized(file), full = load_serialized(file, 1);
+        CHECK(plain.positions == std::vector<glm::vec3>{{0, 0, 5}, {1, 0, 5}, {0, 1, 5}});
+        CHECK(plain.normals.empty());
+        CHECK(full.positions[2] == glm::vec3(0, 1, 7));
+        CHECK(full.normals[1] == glm::vec3(0, 0, 1));
+        CHECK(full.uvs[1] == glm::vec2(1, .5f));
+        CHECK(full.attributes.at(0).name == "vertex_color");
+        CHECK(full.attributes[0].values[1] == Rgb(.375f, .5f, .625f));
+        CHECK(full.triangles == std::vector<std::array<std::uint32_t, 3>>{{0, 1, 2}});
+        CHECK(has(error_from([&] { (void)load_serialized(file, 2); }), {"no mesh 2", "has 2"}));
+    }
+    const auto scene = files.load(R"(<shape type="serialized"><string name="filename" value="m.serialized"/><integer name="shape_index" value="1"/></shape>)");
+    CHECK(std::get<MeshShape>(scene.shapes.at(0).geometry).data->positions[0].z == 7.0f);
+}
+
+TEST_CASE("a damaged serialized mesh is refused", "[unit][scene]") {
+    const SceneFiles files;
+    const auto error = [&](const std::string& bytes, std::uint32_t index = 0) {
+        return error_from([&] { (void)load_serialized(files.write("m.serialized", bytes), index); });
+    };
+    const std::string whole = serialized_file({serialized_mesh<float>(0, 4, 5)}, 4);
+    CHECK(has(error("abcdefgh"), {"m.serialized", "not a serialized mesh"}));
+    CHECK(has(error(""), {"ends before"}));
+    CHECK(has(error(whole.substr(0, 30)), {"damaged"}));
+    std::string other = whole;
+    other[2] = 9;
+    CHECK(has(error(other), {"version 9", "3, 4"}));
+    other = whole;
+    other[4] = 0;  // of zlib's own header
+    CHECK(has(error(other), {"damaged"}));
+    CHECK(has(error(whole, 7), {"no mesh 7"}));
+}
+
+TEST_CASE("attributes of PLY meshes have Mitsuba's names", "[unit][scene]") {
+    const SceneFiles files;
+    const auto attributes = [&](const std::string& vertex, const std::string& face, const std::string& values, const std::string& face_values) {
+        std::string text = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n";
+        const auto properties = [&](const std::string& names) {
+            std::istringstream words(names);
+            for (std::string w; words >> w;) text += "property float " + w + "\n";
+        };
+        properties(vertex);
+        text += "element face 1\nproperty list uchar int vertex_indices\n";
+        properties(face);
+        text += "end_header\n";
+        for (const char* p : {"0 0 0 ", "1 0 0 ", "0 1 0 "}) text += p + values + "\n";
+        return load_ply(files.write("a.ply", text + "3 0 1 2 " + face_values + "\n")).attributes;
+    };
+    const auto color = attributes("color_0 color_1 color_2", "weight_0", "1 2 3", "4");
+    REQUIRE(color.size() == 2);
+    CHECK(color[0].name == "vertex_color");
+    CHECK(color[0].values[2] == Rgb(1, 2, 3));
+    CHECK(color[1].name == "face_weight");
+    CHECK(color[1].values == std::vector<Rgb>{Rgb(4.0f)});  // one number is a grey
+    CHECK(attributes("r g b", "", "1 2 3", "").at(0).name == "vertex_color");
+    CHECK(attributes("a_x a_y a_z", "", "1 2 3", "").at(0).name == "vertex_a");
+    CHECK(attributes("c_r c_g c_b", "", "1 2 3", "").at(0).name == "vertex_c_color");
+    CHECK(attributes("a_0 a_1", "", "1 2", "").empty());
+    CHECK(attributes("foo", "", "1", "").empty());
+    // A material that looks up what its mesh does not have is refused when the scene is compiled.
+    const auto scene = files.load(R"(<shape type="ply"><string name="filename" value="a.ply"/><bsdf type="diffuse">
+        <texture name="reflectance" type="mesh_attribute"><string name="name" value="vertex_color"/></texture></bsdf></shape>)");
+    CHECK(has(error_from([&] { (void)compile(scene); }), {"scene.xml:2", "'vertex_color'"}));
 }

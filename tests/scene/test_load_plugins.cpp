@@ -178,8 +178,13 @@ TEST_CASE("materials out of range are refused", "[unit][scene]") {
     CHECK_ERROR(files.error_of(bsdf("diffuse", rgb("reflectance", "nan"))), "finite");
     CHECK_ERROR(files.error_of(bsdf("diffuse", rgb("reflectance", "1, 2"))), "not a colour");
     CHECK_ERROR(files.error_of(bsdf("diffuse", rgb("reflectance", "#ff8000"))), "hexadecimal");
-    CHECK_ERROR(files.error_of(bsdf("diffuse", R"(<spectrum name="reflectance" value="400:1, 700:.5"/>)")), "by wavelength");
-    CHECK_ERROR(files.error_of(bsdf("diffuse", R"(<spectrum name="reflectance" filename="a.spd"/>)")), "by wavelength");
+    CHECK_ERROR(files.error_of(bsdf("diffuse", R"(<spectrum name="reflectance" value="400:1"/>)")), "at least two points");
+    CHECK_ERROR(files.error_of(bsdf("diffuse", R"(<spectrum name="reflectance" value="400:1, 300:.5"/>)")), "must increase");
+    CHECK_ERROR(files.error_of(bsdf("diffuse", R"(<spectrum name="reflectance" value="400:1, 700:2"/>)")), "[0, 1]");
+    CHECK_ERROR(files.error_of(bsdf("diffuse", R"(<spectrum name="reflectance" value="400:1, 700"/>)")), "wavelength:value");
+    CHECK_ERROR(files.error_of(bsdf("diffuse", R"(<spectrum name="reflectance" filename="a.spd"/>)")), "no file 'a.spd'");
+    CHECK_ERROR(files.error_of(bsdf("diffuse", R"(<texture name="reflectance" type="mesh_attribute"/>)")), "<string name=\"name\"");
+    CHECK_ERROR(files.error_of(bsdf("diffuse", R"(<texture name="reflectance" type="mesh_attribute"><string name="name" value="colour"/></texture>)")), "vertex_ or face_");
     CHECK_ERROR(files.error_of(bsdf("dielectric", text("int_ior", "diamant"))), "did you mean 'diamond'?", "bk7");
     CHECK_ERROR(files.error_of(bsdf("dielectric", number("int_ior", "-1"))), "positive");
     CHECK_ERROR(files.error_of(bsdf("conductor", text("material", "Aq"))), "'Aq'", "did you mean", "Au", "eta", "none");
@@ -206,6 +211,85 @@ TEST_CASE("a flat spectrum is a grey reflectance but, as light, the equal-energy
     CHECK(std::abs(light.g - 9.48291f) < 1e-4f);
     CHECK(std::abs(light.b - 9.08916f) < 1e-4f);
     CHECK(scene.point_lights.at(1).intensity == Rgb(2.0f));
+}
+
+TEST_CASE("spectra by wavelength become the colours that Mitsuba gives them", "[unit][scene]") {
+    const SceneFiles files;
+    files.write("s.spd", "# nm value\n400 0.1\n500 0.2  # blue\n\n600 0.78\n700 0.78\n");
+    const auto check = [](Rgb got, Rgb wanted) {
+        INFO(got.r << ' ' << got.g << ' ' << got.b);
+        for (int i = 0; i < 3; ++i) CHECK(std::abs(got[i] - wanted[i]) <= 1e-5f * wanted[i] + 1e-6f);
+    };
+    const auto reflectance = [&](const std::string& table) {
+        return std::get<Rgb>(std::get<Diffuse>(material_of(files, bsdf("diffuse", "<spectrum name=\"reflectance\" " + table + "/>")).front).reflectance);
+    };
+    // Mitsuba 3.9.1, rgb, as mi.traverse shows them
+    check(reflectance("value=\"400:0.78, 500:0.78, 600:0.78, 700:0.78\""), {0.7763668f, 0.77981f, 0.7760291f});
+    check(reflectance("value=\"400:0.1, 500:0.2, 600:0.78, 700:0.78\""), {0.91300154f, 0.43979964f, 0.10732156f});
+    check(reflectance("filename=\"s.spd\""), {0.91300154f, 0.43979964f, 0.10732156f});
+    check(reflectance("value=\"550:1, 551:1\""), {0.0f, 0.01333565f, 0.0f});
+    const auto lamp = files.load(R"(<emitter type="point"><spectrum name="intensity" value="400:0, 500:8, 600:15.6, 700:18.4"/></emitter>)");
+    check(lamp.point_lights.at(0).intensity, {20.710836f, 10.854634f, 2.771152f});
+    const auto metal = std::get<Conductor>(material_of(files, bsdf("conductor", R"(<spectrum name="eta" value="400:0, 500:8, 600:15.6, 700:18.4"/>)")).front);
+    check(metal.eta, {17.714712f, 11.354429f, 3.3045077f});
+}
+
+TEST_CASE("spots, directional lights and projectors take Mitsuba's parameters", "[unit][scene]") {
+    const SceneFiles files;
+    const auto scene = files.load(R"(<emitter type="spot"/>
+        <emitter type="spot"><float name="cutoff_angle" value="30"/><float name="beam_width" value="5"/><rgb name="intensity" value="1, 2, 3"/>
+            <texture name="texture" type="checkerboard"/></emitter>
+        <emitter type="directional"><vector name="direction" value="0, 0, -2"/><rgb name="irradiance" value="4"/></emitter>
+        <emitter type="directional"><transform name="to_world"><rotate y="1" angle="90"/></transform></emitter>
+        <emitter type="projector"><float name="fov" value="40"/><float name="scale" value="2"/></emitter>)");
+    REQUIRE(scene.delta_lights.size() == 5);
+    const auto& plain = std::get<SpotLight>(scene.delta_lights[0]);
+    CHECK(plain.cutoff_degrees == 20.0);
+    CHECK(plain.beam_degrees == 15.0);
+    CHECK(!plain.texture);
+    const auto& slide = std::get<SpotLight>(scene.delta_lights[1]);
+    CHECK(slide.beam_degrees == 5.0);
+    CHECK(slide.intensity == Rgb(1, 2, 3));
+    CHECK(std::holds_alternative<CheckerboardTexture>(slide.texture.value()));
+    CHECK(std::get<DirectionalLight>(scene.delta_lights[2]).direction == glm::dvec3(0, 0, -2));
+    CHECK(std::abs(std::get<DirectionalLight>(scene.delta_lights[3]).direction.x - 1.0) < 1e-12);
+    CHECK(std::get<ProjectorLight>(scene.delta_lights[4]).fov_x_degrees == 40.0);
+    const auto error = [&](const std::string& type, const std::string& contents) { return files.error_of("<emitter type=\"" + type + "\">" + contents + "</emitter>"); };
+    CHECK_ERROR(error("spot", number("cutoff_angle", "0")), "scene.xml:2:22", "'cutoff_angle'", "(0, 180]");
+    CHECK_ERROR(error("spot", number("beam_width", "30")), "'beam_width'", "[0, cutoff_angle = 20]");
+    CHECK_ERROR(error("spot", rgb("texture", "1")), "must vary");
+    CHECK_ERROR(error("spot", number("fov", "1")), "'fov'", "cutoff_angle", "texture");
+    CHECK_ERROR(error("directional", "<vector name=\"direction\" value=\"0,0,0\"/>"), "no length");
+    CHECK_ERROR(error("directional", "<vector name=\"direction\" value=\"0,0,1\"/><transform name=\"to_world\"/>"), "not both");
+    CHECK_ERROR(error("projector", number("scale", "-1")), "negative");
+    CHECK_ERROR(error("projector", "<transform name=\"to_world\"><scale value=\"2\"/></transform>"), "must not scale");
+    CHECK_ERROR(error("projector", R"(<texture name="irradiance" type="mesh_attribute"><string name="name" value="vertex_color"/></texture>)"), "not supported as light");
+}
+
+TEST_CASE("integrators are path, direct, volpath, and moment around one of them", "[unit][scene]") {
+    const SceneFiles files;
+    const auto load = [&](const std::string& text) { return files.load("<integrator type=" + text + "</integrator>").integrator; };
+    CHECK(load("\"direct\">").max_depth == 2);
+    CHECK(load("\"volpath\">" + integer("max_depth", "7")).max_depth == 7);
+    CHECK(load("\"path\">").moments.empty());
+    const auto moment = load("\"moment\"><integrator type=\"direct\" name=\"img\"><boolean name=\"hide_emitters\" value=\"true\"/></integrator>");
+    CHECK(moment.moments == "img");
+    CHECK(moment.max_depth == 2);
+    CHECK(moment.hide_emitters);
+    CHECK(load("\"moment\"><integrator type=\"path\"/>").moments == "_arg_0");
+    const auto error = [&](const std::string& text) { return files.error_of("<integrator type=" + text + "</integrator>"); };
+    CHECK_ERROR(error("\"direct\">" + integer("bsdf_samples", "0")), "'bsdf_samples' is 0", "more samples per pixel");
+    CHECK_ERROR(error("\"direct\">" + integer("max_depth", "3")), "'max_depth'", "shading_samples");
+    CHECK_ERROR(error("\"moment\">"), "takes one integrator");
+    CHECK_ERROR(error("\"ptracer\">"), "'ptracer'", "path, direct, volpath, moment");
+}
+
+TEST_CASE("folders of <path> are searched first", "[unit][scene]") {
+    const SceneFiles files;
+    files.write("common/part.xml", "<scene version=\"2.1.0\"><shape type=\"cube\"/></scene>");
+    CHECK(files.load("<path value=\"common\"/><include filename=\"part.xml\"/>").shapes.size() == 1);
+    CHECK_ERROR(files.error_of("<path value=\"nowhere\"/>"), "scene.xml:2:1", "nowhere");
+    CHECK_ERROR(files.error_of("<include filename=\"part.xml\"/>"), "part.xml");
 }
 
 TEST_CASE("emitters of every kind load", "[unit][scene]") {
@@ -240,7 +324,7 @@ TEST_CASE("emitters out of range or out of place are refused", "[unit][scene]") 
     CHECK_ERROR(
         files.error_of(R"(<emitter type="area" id="e"/><shape type="cube"><ref id="e"/></shape><shape type="cube"><ref id="e"/></shape>)"),
         "two shapes");
-    CHECK_ERROR(files.error_of(R"(<emitter type="spot"/>)"), "'spot'", "area, point, constant, envmap");
+    CHECK_ERROR(files.error_of(R"(<emitter type="sunsky"/>)"), "'sunsky'", "area, point, spot, directional, projector, constant, envmap");
 }
 
 TEST_CASE("analytic shapes keep their transform and flags", "[unit][scene]") {
@@ -258,6 +342,12 @@ TEST_CASE("analytic shapes keep their transform and flags", "[unit][scene]") {
                 "scale all axes alike");
     CHECK_ERROR(files.error_of(R"(<shape type="disk"><boolean name="face_normals" value="true"/></shape>)"), "'face_normals'",
                 "flip_normals");
+    const auto tube = std::get<CylinderShape>(files.load(R"(<shape type="cylinder"><point name="p1" x="1" y="2" z="3"/><float name="radius" value=".5"/></shape>)").shapes[0].geometry);
+    CHECK(tube.p0 == glm::dvec3(0.0));
+    CHECK(tube.p1 == glm::dvec3(1, 2, 3));
+    CHECK(tube.radius == 0.5);
+    CHECK_ERROR(files.error_of(R"(<shape type="cylinder"><point name="p1" x="0" y="0" z="0"/></shape>)"), "needs a length");
+    CHECK_ERROR(files.error_of(R"(<shape type="cylinder"><transform name="to_world"><scale z="2"/></transform></shape>)"), "scale all axes alike");
 }
 
 TEST_CASE("the field of view is horizontal whatever axis it was given for", "[unit][scene]") {
@@ -309,10 +399,14 @@ TEST_CASE("sensors take their parameters and refuse the impossible", "[unit][sce
     CHECK_ERROR(error(number("near_clip", "3") + number("far_clip", "2")), "beyond near_clip");
     CHECK_ERROR(error("<transform name=\"to_world\"><scale value=\"2\"/></transform>"), "must not scale");
     CHECK(error("<transform name=\"to_world\"><scale x=\"-1\"/></transform>") == "no error");
-    CHECK_ERROR(error("", "orthographic"), "'orthographic'", "perspective, thinlens");
+    const auto parallel = files.load_text(sensor_scene("<transform name=\"to_world\"><scale x=\"3\" y=\"2\"/></transform>", {}, "orthographic")).camera;
+    CHECK(parallel.orthographic);
+    CHECK(parallel.to_world[0][0] == 3.0);
+    CHECK_ERROR(error(number("fov", "30"), "orthographic"), "'fov'", "near_clip");
+    CHECK_ERROR(error("", "fisheye"), "'fisheye'", "perspective, thinlens, orthographic");
 }
 
-TEST_CASE("films have a size, a crop inside it, and a box filter", "[unit][scene]") {
+TEST_CASE("films have a size, a crop inside it, and a filter", "[unit][scene]") {
     const SceneFiles files;
     const auto error = [&](const std::string& f) { return files.error_of_text(sensor_scene("", f)); };
     const auto film = files
@@ -326,14 +420,22 @@ TEST_CASE("films have a size, a crop inside it, and a box filter", "[unit][scene
     CHECK_ERROR(error(integer("crop_offset_x", "100")), "reaches out of the film", "768 x 576");
     CHECK_ERROR(error(integer("crop_width", "0")), "'crop_width' is 0");
     CHECK_ERROR(error(text("pixel_format", "luminance")), "rgb, rgba");
-    CHECK_ERROR(error("<boolean name=\"sample_border\" value=\"true\"/>"), "sample_border");
+    CHECK(files.load_text(sensor_scene("", "<boolean name=\"sample_border\" value=\"true\"/>")).film.filter.beyond_film);
+    CHECK(film.filter.is_pixel());
     CHECK(error(text("pixel_format", "rgba") + text("component_format", "float32") + text("file_format", "openexr")) == "no error");
     CHECK_ERROR(files.error_of_text("<scene version=\"3.0.0\"><sensor type=\"perspective\"/></scene>"), "needs a <film");
-    CHECK_ERROR(files.error_of_text("<scene version=\"3.0.0\"><sensor type=\"perspective\"><film type=\"hdrfilm\"/></sensor></scene>"),
-                "add <rfilter type=\"box\"/>");
-    CHECK_ERROR(files.error_of_text("<scene version=\"3.0.0\"><sensor type=\"perspective\"><film type=\"hdrfilm\"><rfilter "
-                                    "type=\"tent\"/></film></sensor></scene>"),
-                "'tent'", "supported: box");
+    const auto filter = [](const std::string& contents) {
+        return "<scene version=\"3.0.0\"><sensor type=\"perspective\"><film type=\"hdrfilm\">" + contents + "</film></sensor></scene>";
+    };
+    const auto none = files.load_text(filter("")).film.filter;  // Mitsuba's default
+    CHECK(none.kind == ReconstructionFilter::Kind::gaussian);
+    CHECK(none.stddev == 0.5);
+    const auto tent = files.load_text(filter("<rfilter type=\"tent\"/>")).film.filter;
+    CHECK(tent.kind == ReconstructionFilter::Kind::tent);
+    CHECK(tent.radius == 1.0);
+    CHECK_ERROR(files.error_of_text(filter("<rfilter type=\"mitchell\"/>")), "'mitchell'", "supported: box, tent, gaussian");
+    CHECK_ERROR(files.error_of_text(filter("<rfilter type=\"tent\">" + number("radius", "0") + "</rfilter>")), "'radius' is 0");
+    CHECK_ERROR(files.error_of_text(filter("<rfilter type=\"tent\">" + number("stddev", "1") + "</rfilter>")), "'stddev'");
 }
 
 TEST_CASE("samplers become names of ours, with options", "[unit][scene]") {
@@ -374,4 +476,7 @@ TEST_CASE("the hash covers what can change the expected image and nothing else",
     CHECK(hash(shape + "<emitter type=\"constant\"/>") != base);
     CHECK(hash(R"(<shape type="sphere"><bsdf type="diffuse"><float name="reflectance" value=".4"/></bsdf></shape>)") != base);
     CHECK(hash(R"(<shape type="sphere"><boolean name="flip_normals" value="true"/></shape>)") != base);
+    CHECK(hash(shape + "<emitter type=\"spot\"/>") != base);
+    CHECK(hash(shape + "<emitter type=\"spot\"/>") != hash(shape + "<emitter type=\"spot\">" + number("beam_width", "1") + "</emitter>"));
+    CHECK(hash(shape + "<emitter type=\"directional\"/>") != hash(shape + "<emitter type=\"projector\"/>"));
 }

@@ -1,4 +1,4 @@
-// One render, one result: for any number of threads, any split of the work, any crop, any admissible kernel.
+// One render, one result: for any number of threads, any split of the work, any crop.
 
 #include "render_scene.h"
 
@@ -107,23 +107,6 @@ TEST_CASE("a seed has its image and another seed another", "[scenes]") {
         const Film one = ready.render(sampler, 4, 1).film;
         CHECK(same_bytes(one, ready.render(sampler, 4, 1).film));
         CHECK_FALSE(same_bytes(one, ready.render(sampler, 4, 2).film));
-    }
-}
-
-TEST_CASE("all admissible kernels give the same bytes on the built-in scenes", "[scenes]") {
-    for (const auto& file : built_in_scenes()) {
-        const Ready ready(load_scene(file, {{"res", "24"}}));
-        const Film all = ready.render(kSobol, 16, 4).film;
-        int admissible = 0;
-        for (const Kernel& kernel : kernels()) {
-            if (!kernel.effects.contains(ready.plan.effects)) continue;
-            ++admissible;
-            RenderOptions o;
-            o.kernel = &kernel;
-            INFO(file << " with " << kernel.name);
-            CHECK(same_bytes(all, ready.render(kSobol, 16, 4, o).film));
-        }
-        CHECK(admissible >= 1);
     }
 }
 

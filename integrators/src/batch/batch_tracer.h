@@ -230,18 +230,21 @@ private:
 
     void add_environment(std::size_t at, Mask escaped, const Vec3<Float>& d, const Vec3<Float>& beta) {
         if (scene_.environment_light < 0 || (depth_ == 0 && settings_.hide_emitters)) return;
-        const VectorLanes directions(d), betas(beta);
-        for_lanes(escaped, [&](int i) {
-            const std::size_t path = at + static_cast<std::size_t>(i);
-            const Vec3f le = environment_radiance<kEffects>(scene_, directions[i]);
-            float weight = 1.0f;
-            if (paths_->delta[path] == 0)
-                weight = koksma::power_heuristic(
-                    paths_->pdf[path], environment_pdf<kEffects>(scene_, directions[i]) *
-                                           light_probability(path, static_cast<std::uint32_t>(scene_.environment_light), kWholeLight));
-            radiance(i) += betas[i] * le * weight;
-        });
+        const EnvironmentValueOf<Float> value = environment_pack(scene_, d);
+        const Mask delta = Int32::load(paths_->delta + at) != Int32(0);
+        Float probability{1.0f};
+        if constexpr (kEffects.has(Effect::many_lights)) {
+            NumberLanes lanes(probability);
+            for_lanes(escaped & !delta, [&](int i) { lanes.x[i] = light_probability(at + static_cast<std::size_t>(i), environment_light(), kWholeLight); });
+            probability = lanes.pack();
+        } else {
+            probability = Float(light_probability(at, environment_light(), kWholeLight));
+        }
+        const Float weight = select(delta, Float(1.0f), power_heuristic(Float::load(paths_->pdf + at), value.pdf_w * probability));
+        const VectorLanes contribution(beta * value.radiance * weight);
+        for_lanes(escaped, [&](int i) { radiance(i) += contribution[i]; });
     }
+    [[nodiscard]] std::uint32_t environment_light() const { return static_cast<std::uint32_t>(scene_.environment_light); }
 
     void add_emission(std::size_t at, Mask shines, const SurfacePack& s, Int32 primitive, const Vec3<Float>& d, const Vec3<Float>& beta) {
         if (depth_ == 0 && settings_.hide_emitters) return;

@@ -160,6 +160,32 @@ template <EffectSet kEffects>
     return out;
 }
 
+/// As koksma::environment_radiance and environment_pdf.
+[[nodiscard]] inline EnvironmentValueOf<Float> environment_pack(const Scene& scene, const Vec3<Float>& d) {
+    if (scene.environment_map) return environment_value(scene.environment_map->table(), d);
+    return {Vec3<Float>::splat(scene.lights[static_cast<std::size_t>(scene.environment_light)].radiance.constant), Float(0.25f * kInvPi)};
+}
+
+/// As koksma::sample_light for the environment.
+inline void sample_environment(const Scene& scene, Mask active, Vec2<Float> u, LightSamplePack& out) {
+    Vec3<Float> d;
+    if (scene.environment_map) {
+        if (scene.environment_map->is_black()) return;  // pdf_w is zero there
+        VectorLanes directions(Vec3<Float>{Float(0.0f), Float(0.0f), Float(1.0f)});
+        const NumberLanes x(u.x), y(u.y);
+        for_lanes(active, [&](int i) { directions.set(i, scene.environment_map->sample({x.x[i], y.x[i]})); });
+        d = directions.pack();
+    } else {
+        d = square_to_sphere(u);
+    }
+    const EnvironmentValueOf<Float> value = environment_pack(scene, d);
+    assign<Float>(active, out.wi, d);
+    assign<Float>(active, out.target, d);
+    assign<Float>(active, out.radiance, value.radiance);
+    out.pdf_w = select(active, value.pdf_w, out.pdf_w);
+    out.at_infinity = out.at_infinity | active;
+}
+
 /// As koksma::sample_light, lane by lane.
 template <EffectSet kEffects>
 void sample_other_lights(const Scene& scene, Mask active, Int32 light, Vec3<Float> p, Vec2<Float> u, LightSamplePack& out) {  // never a triangle alone
@@ -183,8 +209,8 @@ void sample_other_lights(const Scene& scene, Mask active, Int32 light, Vec3<Floa
     out.radiance = radiance.pack();
     out.target = target.pack();
     out.pdf_w = pdf.pack();
-    out.delta = mask_of(delta);
-    out.at_infinity = mask_of(at_infinity);
+    out.delta = out.delta | mask_of(delta);
+    out.at_infinity = out.at_infinity | mask_of(at_infinity);
 }
 
 /// As koksma::sample_light. @return  pdf_w zero in lanes without a sample
@@ -192,22 +218,26 @@ template <EffectSet kEffects>
 [[nodiscard]] LightSamplePack sample_light_pack(const Scene& scene, const SingleLight& single, Mask active, const LightChoicePack& choice, Vec3<Float> p,
                                                 Vec2<Float> u) {
     const Int32 light = choice.light;
+    const auto is_kind = [&](LightKind k) { return gather_int(scene.lights.data(), offsetof(Light, kind), light) == Int32(static_cast<int>(k)); };
+    LightSamplePack out{};
+    Mask others = active;
     if constexpr (kEffects.has(Effect::area_light)) {
         if (single.usable) return sample_triangle_lights<kEffects>(scene, single, active, choice, p, u);
-        const Int32 kind = gather_int(scene.lights.data(), offsetof(Light, kind), light);
-        const Mask triangles = active & ((kind == Int32(static_cast<int>(LightKind::mesh))) | (kind == Int32(static_cast<int>(LightKind::parallelogram))));
-        if (any(triangles)) {
+        if (const Mask triangles = active & (is_kind(LightKind::mesh) | is_kind(LightKind::parallelogram)); any(triangles)) {
             // The other lanes compute with the first of these lights: what they gather must be there.
             LightChoicePack readable = choice;
             readable.light = select(triangles, light, first_lane(triangles, light));
             readable.triangle = select(triangles, choice.triangle, first_lane(triangles, choice.triangle));
-            LightSamplePack out = sample_triangle_lights<kEffects>(scene, single, triangles, readable, p, u);
-            if (const Mask others = active & !triangles; any(others)) sample_other_lights<kEffects>(scene, others, light, p, u, out);
-            return out;
+            out = sample_triangle_lights<kEffects>(scene, single, triangles, readable, p, u);
+            others = others & !triangles;
         }
     }
-    LightSamplePack out{};
-    sample_other_lights<kEffects>(scene, active, light, p, u, out);
+    if constexpr (kEffects.has(Effect::environment))
+        if (const Mask sky = others & is_kind(LightKind::environment); any(sky)) {
+            sample_environment(scene, sky, u, out);
+            others = others & !sky;
+        }
+    if (any(others)) sample_other_lights<kEffects>(scene, others, light, p, u, out);
     return out;
 }
 

@@ -24,6 +24,11 @@ bool finite(std::span<const float> image, std::size_t pixel) {
     return std::isfinite(image[pixel]) && std::isfinite(image[pixel + 1]) && std::isfinite(image[pixel + 2]);
 }
 
+double symmetric(double a, double b) {
+    const double size = std::abs(a) + std::abs(b);
+    return size > 0 ? std::abs(a - b) / size : 0;
+}
+
 /// eps of relMSE: from all finite pixels of the reference, whatever it is compared with.
 double relative_floor(std::span<const float> reference) {
     double sum = 0, n = 0;
@@ -53,6 +58,7 @@ ImageError compare_images(std::span<const float> a, std::span<const float> b) {
             e.mse += d * d;
             e.relmse += d * d / (r * r + eps);
             e.mae += std::abs(d);
+            e.smape += symmetric(x, r);
             e.max_abs = std::max(e.max_abs, std::abs(d));
             e.mean_a[c] += x;
             e.mean_b[c] += r;
@@ -63,6 +69,7 @@ ImageError compare_images(std::span<const float> a, std::span<const float> b) {
     e.rmse = std::sqrt(e.mse);
     e.relmse = eps > 0 ? e.relmse / (3 * pixels) : kNaN;
     e.mae /= 3 * pixels;
+    e.smape /= 3 * pixels;
     if (e.pixels == 0) e.max_abs = kNaN;
     for (std::size_t c = 0; c < 3; ++c) {
         e.mean_a[c] /= pixels;
@@ -72,13 +79,15 @@ ImageError compare_images(std::span<const float> a, std::span<const float> b) {
 }
 
 ReferenceError compare_to_reference(std::span<const float> image, std::span<const float> reference_mean,
-                                    std::span<const float> reference_variance_of_mean) {
+                                    std::span<const float> reference_variance_of_mean, std::span<const unsigned char> skip) {
     check_sizes(image.size(), reference_mean.size(), "reference");
     const bool corrected = !reference_variance_of_mean.empty();
     if (corrected) check_sizes(image.size(), reference_variance_of_mean.size(), "variance of the reference");
+    if (!skip.empty()) check_sizes(image.size(), 3 * skip.size(), "mask, times three,");
     const double eps = relative_floor(reference_mean);
     ReferenceError e;
     for (std::size_t p = 0; p < image.size(); p += 3) {
+        if (!skip.empty() && skip[p / 3] != 0) continue;
         const bool finite_image = finite(image, p);
         const bool finite_reference = finite(reference_mean, p) && (!corrected || finite(reference_variance_of_mean, p));
         e.non_finite_image += !finite_image;
@@ -92,11 +101,15 @@ ReferenceError compare_to_reference(std::span<const float> image, std::span<cons
             e.relmse_raw += d * d / denominator;
             e.mse_floor += variance;
             e.relmse_floor += variance / denominator;
+            e.mae += std::abs(d);
+            e.smape += symmetric(static_cast<double>(image[p + c]), r);
         }
     }
     const double n = 3 * static_cast<double>(e.pixels);  // 0 makes every mean NaN
     e.mse_raw /= n;
     e.mse_floor /= n;
+    e.mae /= n;
+    e.smape /= n;
     e.mse = e.mse_raw - e.mse_floor;
     e.relmse_raw = eps > 0 ? e.relmse_raw / n : kNaN;
     e.relmse_floor = eps > 0 ? e.relmse_floor / n : kNaN;

@@ -5,9 +5,12 @@
 
 #include "embree.h"
 
+#include <tbb/task_arena.h>
+
 #include <cstddef>
 #include <deque>
 #include <string>
+#include <utility>
 #include <variant>
 
 namespace koksma {
@@ -18,14 +21,14 @@ namespace {
 constexpr float kLargestCoordinate = 1.844e18f;
 
 struct UserShape {
-    std::variant<AnalyticSphere, AnalyticDisk> shape;
+    std::variant<AnalyticSphere, AnalyticDisk, AnalyticCylinder> shape;
     unsigned geometry = 0;
 };
 
 float first_hit(const UserShape& user, const Ray& ray) noexcept {
-    const double t = std::holds_alternative<AnalyticSphere>(user.shape) ? intersect(std::get<AnalyticSphere>(user.shape), ray)
-                                                                        : intersect(std::get<AnalyticDisk>(user.shape), ray).t;
-    return static_cast<float>(t);
+    if (const auto* sphere = std::get_if<AnalyticSphere>(&user.shape)) return static_cast<float>(intersect(*sphere, ray));
+    if (const auto* disk = std::get_if<AnalyticDisk>(&user.shape)) return static_cast<float>(intersect(*disk, ray).t);
+    return static_cast<float>(intersect(std::get<AnalyticCylinder>(user.shape), ray).t);
 }
 
 Ray ray_of(RTCRayN* rays, unsigned n, unsigned i) noexcept {
@@ -64,6 +67,9 @@ void bounds_user(const RTCBoundsFunctionArguments* args) {
     if (const auto* sphere = std::get_if<AnalyticSphere>(&user.shape)) {
         center = sphere->center;
         extent = Vec3d(sphere->radius);
+    } else if (const auto* cylinder = std::get_if<AnalyticCylinder>(&user.shape)) {
+        center = cylinder->base + cylinder->axis * 0.5;
+        extent = reach(*cylinder);
     } else {
         const auto& disk = std::get<AnalyticDisk>(user.shape);
         center = disk.center;
@@ -132,13 +138,15 @@ struct Accelerator::Impl {
     RTCDevice device = nullptr;
     RTCScene scene = nullptr;
     std::deque<UserShape> shapes;  // a deque: addresses are handed to Embree
+    unsigned geometries = 0;
+    bool committed = false;
+    std::function<void(const PacketQuery&)> watcher;
 
     Impl() {
         // No "threads=": Embree would cap TBB for the whole process.
         device = rtcNewDevice(nullptr);
         if (device == nullptr) throw Error("Embree cannot make a device (code " + std::to_string(rtcGetDeviceError(nullptr)) + ")");
         scene = rtcNewScene(device);
-        rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
         rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_HIGH);
     }
     ~Impl() {
@@ -151,7 +159,7 @@ struct Accelerator::Impl {
     void attach(RTCGeometry geometry) {
         rtcSetGeometryMask(geometry, ~0u);  // Embree 4 defaults to 1, Embree 3 to all
         rtcCommitGeometry(geometry);
-        rtcAttachGeometry(scene, geometry);
+        geometries = rtcAttachGeometry(scene, geometry) + 1;
         rtcReleaseGeometry(geometry);
         check();
     }
@@ -165,6 +173,7 @@ struct Accelerator::Impl {
         rtcSetGeometryOccludedFunction(geometry, occluded_user);
         rtcCommitGeometry(geometry);
         shapes.back().geometry = rtcAttachGeometry(scene, geometry);
+        geometries = shapes.back().geometry + 1;
         rtcReleaseGeometry(geometry);
         check();
     }
@@ -197,15 +206,29 @@ void Accelerator::add_disk(const AnalyticDisk& disk) {
     impl_->add_user({disk});
 }
 
-void Accelerator::commit() {
-    rtcCommitScene(impl_->scene);
+void Accelerator::add_cylinder(const AnalyticCylinder& cylinder) {
+    if (!(length(cylinder.base) + length(cylinder.axis) + cylinder.radius < kLargestCoordinate))
+        throw Error("a cylinder reaches farther from the camera than 1.8e18, or is not finite");
+    impl_->add_user({cylinder});
+}
+
+void Accelerator::watch(std::function<void(const PacketQuery&)> watcher) { impl_->watcher = std::move(watcher); }
+
+void Accelerator::commit(bool robust) {
+    rtcSetSceneFlags(impl_->scene, robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
+    // Embree builds anew only what it takes for changed.
+    for (unsigned i = 0; impl_->committed && i < impl_->geometries; ++i) rtcCommitGeometry(rtcGetGeometry(impl_->scene, i));
+    impl_->committed = true;
+    // Embree flushes denormals while it builds, and the first TBB task of a process sets the mode of all later ones: without
+    // an arena of its own the host's tasks would flush for ever.
+    tbb::task_arena().execute([&] { rtcCommitScene(impl_->scene); });
     impl_->check();
 }
 
 Hit Accelerator::intersect(const Ray& ray) const noexcept {
     RTCRayHit rh;
     rh.ray = embree_ray(ray);
-    rh.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    rh.hit.geomID = rh.hit.primID = RTC_INVALID_GEOMETRY_ID;  // Embree writes neither where it meets nothing
     embree::intersect1(impl_->scene, rh);
     return {rh.hit.geomID, rh.hit.primID};
 }
@@ -218,10 +241,12 @@ bool Accelerator::occluded(const Ray& ray) const noexcept {
 
 template <int N>
 void Accelerator::intersect(RayPacket<N>& rays, const std::int32_t* valid, Coherence coherence) const noexcept {
+    if (impl_->watcher) impl_->watcher({N, false, coherence, rays.o_x, valid});
     embree::intersect(valid, impl_->scene, reinterpret_cast<typename Packet<N>::RayHit&>(rays), embree::IntersectQuery(coherence == Coherence::coherent));
 }
 template <int N>
 void Accelerator::occluded(RayPacket<N>& rays, const std::int32_t* valid, Coherence coherence) const noexcept {
+    if (impl_->watcher) impl_->watcher({N, true, coherence, rays.o_x, valid});
     embree::occluded(valid, impl_->scene, reinterpret_cast<typename Packet<N>::Ray&>(rays), embree::OccludedQuery(coherence == Coherence::coherent));
 }
 template void Accelerator::intersect(RayPacket<4>&, const std::int32_t*, Coherence) const noexcept;

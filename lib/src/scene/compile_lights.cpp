@@ -3,6 +3,7 @@
 #include "compile.h"
 
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 
 #include <cmath>
 #include <numbers>
@@ -28,6 +29,7 @@ void check_radiance(const Texture& t, const SourceLocation& where) {
     if (const auto* constant = std::get_if<Rgb>(&t)) check_radiance(*constant, where);
     if (const auto* bitmap = std::get_if<BitmapTexture>(&t)) check_radiance(*bitmap->image, where);
     if (const auto* checks = std::get_if<CheckerboardTexture>(&t)) check_radiance(checks->color0, where), check_radiance(checks->color1, where);
+    if (std::holds_alternative<MeshAttributeTexture>(t)) throw Error(where.text() + ": light that varies with a mesh attribute is not supported");
 }
 
 /// Twice the area times the normal, in double.
@@ -49,6 +51,11 @@ double make_surface_light(const Scene& scene, const Shape& shape, std::size_t ge
         light.kind = LightKind::sphere;
         const double r = scene.spheres[g.first].radius;
         return 4.0 * kPiDouble * r * r;
+    }
+    if (g.kind == GeometryKind::cylinder) {
+        light.kind = LightKind::cylinder;
+        const AnalyticCylinder& c = scene.cylinders[g.first];
+        return 2.0 * kPiDouble * c.radius * length(c.axis);
     }
     if (g.kind == GeometryKind::disk) {
         light.kind = LightKind::disk;
@@ -87,25 +94,107 @@ float bounding_radius(const Scene& scene) {
     for (std::size_t i = 0; i + 1 < scene.positions.size(); ++i) grow(to_double(scene.positions[i]), 0.0);
     for (const AnalyticSphere& s : scene.spheres) grow(s.center, s.radius);
     for (const AnalyticDisk& d : scene.disks) grow(d.center, length(d.s) + length(d.t));
+    for (const AnalyticCylinder& c : scene.cylinders) grow(c.base, c.radius), grow(c.base + c.axis, c.radius);
     return r2 > 0.0 ? static_cast<float>(std::sqrt(r2)) : 1.0f;
 }
 
 /// Lights, of meshes triangles, from which on a tree chooses (docs/design.md, "Many lights", has the measurement).
 constexpr std::size_t kManyLights = 16;
 
-/// Share of the environment where there is a tree beside it.
-constexpr float kEnvironmentShare = 0.5f;
+/// Share of the lights at infinity where there is a tree beside them.
+constexpr float kDistantShare = 0.5f;
 
-void compile_light_tree(Scene& scene, std::span<const double> radiances) {
+void compile_light_tree(Scene& scene, std::span<const double> radiances, std::span<const double> powers) {
     const std::vector<LightLeaf> leaves = light_leaves(scene, radiances);
     if (leaves.size() < kManyLights) return;
     scene.light_tree = build_light_tree(leaves, scene.lights.size());
-    if (scene.environment_light >= 0) {
-        scene.light_tree.environment = static_cast<std::uint32_t>(scene.environment_light);
-        if (radiances[scene.light_tree.environment] > 0.0) scene.light_tree.environment_share = kEnvironmentShare;
-    }
+    double sum = 0.0;
+    const auto is_distant = [&](std::size_t i) { return scene.lights[i].kind == LightKind::environment || scene.lights[i].kind == LightKind::directional; };
+    for (std::size_t i = 0; i < scene.lights.size(); ++i)
+        if (is_distant(i)) sum += powers[i];
+    for (std::size_t i = 0; i < scene.lights.size(); ++i)
+        if (is_distant(i) && powers[i] > 0.0) scene.light_tree.distant.push_back({static_cast<std::uint32_t>(i), static_cast<float>(powers[i] / sum)});
+    if (sum > 0.0) scene.light_tree.distant_share = kDistantShare;
     scene.effects |= {Effect::light_choice, Effect::many_lights};
 }
+
+constexpr double kDegree = kPiDouble / 180.0;
+
+struct DeltaLightCompiler {
+    Scene& scene;
+    glm::dvec3 origin;
+    Light light{};
+    double power = 0.0, radiance = 0.0;  ///< luminances: W, and W/sr where it shines
+
+    /// Position and frame. Rows of the inverse's linear part see a direction in the light's own space.
+    Beam beam(const glm::dmat4& to_world, const SourceLocation& where) {
+        const glm::dmat3 linear(to_world);
+        const double det = glm::determinant(linear);
+        if (!(det != 0.0) || !std::isfinite(1.0 / det)) throw Error(where.text() + ": the light's to_world is singular");
+        const glm::dmat3 rows = glm::transpose(glm::inverse(linear));
+        Beam b;
+        b.right = Vec3f(glm::vec3(rows[0]));
+        b.up = Vec3f(glm::vec3(rows[1]));
+        b.forward = Vec3f(glm::vec3(rows[2]));
+        b.axis = Vec3f(glm::vec3(glm::normalize(linear[2])));
+        light.corner = Vec3f(glm::vec3(glm::dvec3(to_world[3]) - origin));
+        light.geometry = static_cast<std::uint32_t>(scene.beams.size());
+        return b;
+    }
+    void operator()(const SpotLight& s) {
+        check_radiance(s.intensity, s.where);
+        if (!(s.cutoff_degrees > 0.0 && s.cutoff_degrees <= 180.0 && s.beam_degrees >= 0.0 && s.beam_degrees <= s.cutoff_degrees))
+            throw Error(s.where.text() + ": a spot's cutoff must be in (0, 180] degrees and its beam in [0, cutoff]");
+        light.kind = LightKind::spot;
+        Beam b = beam(s.to_world, s.where);
+        const double cutoff = s.cutoff_degrees * kDegree, width = s.beam_degrees * kDegree;
+        b.cutoff = static_cast<float>(cutoff);
+        b.cos_cutoff = static_cast<float>(std::cos(cutoff));
+        b.cos_beam = static_cast<float>(std::cos(width));
+        b.inverse_transition = cutoff > width ? static_cast<float>(1.0 / (cutoff - width)) : 0.0f;
+        b.half_width = b.half_height = static_cast<float>(std::tan(cutoff));
+        b.pictured = s.texture.has_value();
+        double share = 1.0;
+        if (s.texture) {
+            check_radiance(*s.texture, s.where);
+            light.radiance = texture_ref(scene, *s.texture);
+            share = mean_luminance(*s.texture);
+            // The factor is the texture's, the intensity the beam's.
+            light.edge_u = Vec3f(s.intensity);
+        } else {
+            light.radiance.constant = s.intensity;
+            light.edge_u = Vec3f(1.0f);
+        }
+        scene.beams.push_back(b);
+        radiance = luminance(s.intensity) * share;
+        power = 2.0 * kPiDouble * (1.0 - 0.5 * (std::cos(cutoff) + std::cos(width))) * radiance;
+    }
+    void operator()(const DirectionalLight& d) {
+        check_radiance(d.irradiance, d.where);
+        const double len = glm::length(d.direction);
+        if (!(len > 0.0) || !std::isfinite(len)) throw Error(d.where.text() + ": the direction of a directional light has no length");
+        light.kind = LightKind::directional;
+        light.corner = Vec3f(glm::vec3(-d.direction / len));
+        light.radiance.constant = d.irradiance;
+        radiance = luminance(d.irradiance);
+        power = kPiDouble * scene.bounding_radius * scene.bounding_radius * radiance;
+    }
+    void operator()(const ProjectorLight& p) {
+        check_radiance(p.irradiance, p.where);
+        if (!(p.scale >= 0.0 && std::isfinite(p.scale) && p.fov_x_degrees > 0.0 && p.fov_x_degrees < 180.0 && p.aspect > 0.0))
+            throw Error(p.where.text() + ": a projector's scale must be finite and not negative, its angle in (0, 180)");
+        light.kind = LightKind::projector;
+        Beam b = beam(p.to_world, p.where);
+        const double half_width = std::tan(0.5 * p.fov_x_degrees * kDegree);
+        b.half_width = static_cast<float>(half_width);
+        b.half_height = static_cast<float>(half_width / p.aspect);
+        scene.beams.push_back(b);
+        light.radiance = texture_ref(scene, p.irradiance);
+        light.edge_u = Vec3f(static_cast<float>(kPiDouble * p.scale));
+        radiance = kPiDouble * p.scale * mean_luminance(p.irradiance);
+        power = radiance * 4.0 * half_width * half_width / p.aspect;
+    }
+};
 
 }  // namespace
 
@@ -143,6 +232,14 @@ void compile_lights(Scene& scene, glm::dvec3 origin) {
         powers.push_back(4.0 * kPiDouble * radiances.back());
         scene.lights.push_back(std::move(light));
     }
+    for (const DeltaLight& source : d.delta_lights) {
+        DeltaLightCompiler compiler{scene, origin};
+        std::visit(compiler, source);
+        scene.effects |= {Effect::point_light};
+        radiances.push_back(compiler.radiance);
+        powers.push_back(compiler.power);
+        scene.lights.push_back(std::move(compiler.light));
+    }
     if (d.environment) {
         Light light;
         light.kind = LightKind::environment;
@@ -167,7 +264,7 @@ void compile_lights(Scene& scene, glm::dvec3 origin) {
         if (!(powers[i] > 0.0) && max_component(scene.lights[i].radiance.constant) > 0.0f) powers[i] = radiances[i] = 1e-30;
     scene.light_choice = DiscreteDistribution(powers);
     if (scene.lights.size() > 1) scene.effects |= {Effect::light_choice};
-    compile_light_tree(scene, radiances);
+    compile_light_tree(scene, radiances, powers);
 }
 
 }  // namespace koksma::detail

@@ -1,3 +1,5 @@
+#include <koksma/sampling/error.h>
+
 #include "compile.h"
 
 #include <koksma/scene/bsdf/layered_parts.h>
@@ -19,6 +21,10 @@ bool is_same(const Texture& a, const Texture& b) {
         const auto& y = std::get<BitmapTexture>(b);
         return x->image == y.image && x->filter == y.filter && x->wrap == y.wrap && x->to_uv == y.to_uv;
     }
+    if (const auto* x = std::get_if<MeshAttributeTexture>(&a)) {
+        const auto& y = std::get<MeshAttributeTexture>(b);
+        return x->name == y.name && x->scale == y.scale;
+    }
     const auto &x = std::get<CheckerboardTexture>(a), &y = std::get<CheckerboardTexture>(b);
     return x.color0 == y.color0 && x.color1 == y.color1 && x.to_uv == y.to_uv;
 }
@@ -27,8 +33,9 @@ bool is_zero(const Texture& t) { return is_same(t, Rgb(0.0f)); }
 
 std::uint32_t add_nested(Scene& scene, std::vector<LayeredPart>& parts, const Material& material, bool& anisotropic);
 
-/// Mean of the channels: for sampling weights.
+/// Mean of the channels: for sampling weights, so never 0 where the texture may not be.
 float mean_of(const Texture& t) {
+    if (std::holds_alternative<MeshAttributeTexture>(t)) return 0.5f;
     const Vec3f m = mean(t);
     return (m.x + m.y + m.z) / 3.0f;
 }
@@ -213,6 +220,21 @@ std::uint32_t add_nested(Scene& scene, std::vector<LayeredPart>& parts, const Ma
     return add_two_sided(scene, parts, front, material.back ? add_side(scene, parts, *material.back, anisotropic) : front);
 }
 
+/// @throws Error for a shape whose mesh lacks an attribute that its material looks up
+void check_attributes(const Scene& scene, std::uint32_t material, std::size_t first_texture) {
+    for (std::size_t t = first_texture; t < scene.textures.size(); ++t) {
+        const auto* wanted = std::get_if<MeshAttributeTexture>(&scene.textures[t]);
+        if (!wanted) continue;
+        for (const Shape& s : scene.description.shapes) {
+            if (s.material != material) continue;
+            const auto* mesh = std::get_if<MeshShape>(&s.geometry);
+            const auto has = [&](const MeshAttribute& a) { return a.name == wanted->name; };
+            if (!mesh || std::none_of(mesh->data->attributes.begin(), mesh->data->attributes.end(), has))
+                throw Error(s.where.text() + ": the material of this shape looks up the attribute '" + wanted->name + "', which the shape does not have");
+        }
+    }
+}
+
 }  // namespace
 
 void compile_materials(Scene& scene) {
@@ -225,6 +247,7 @@ void compile_materials(Scene& scene) {
         const Material& m = d.materials[i];
         MaterialSides sides;
         if (used[i]) {
+            const std::size_t first_texture = scene.textures.size();
             sides.front = sides.back = add_side(scene, parts, m.front, sides.anisotropic);
             if (m.back) sides.back = add_side(scene, parts, *m.back, sides.anisotropic);
             if (m.two_sided && (scene.sides[sides.front].layered >= 0 || scene.sides[sides.back].layered >= 0)) {
@@ -233,6 +256,7 @@ void compile_materials(Scene& scene) {
                 sides.two_sided = true;
                 scene.effects |= {Effect::two_sided};
             }
+            check_attributes(scene, static_cast<std::uint32_t>(i), first_texture);
         }
         scene.materials.push_back(sides);
     }

@@ -5,7 +5,9 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace koksma::detail {
 
@@ -68,7 +70,31 @@ public:
         scene_.effects |= {Effect::analytic_shape};
     }
 
+    void operator()(const CylinderShape& c) {
+        const glm::dmat4& m = shape_.to_world;
+        const glm::dvec3 p0(m * glm::dvec4(c.p0, 1.0)), axis = glm::dmat3(m) * (c.p1 - c.p0);
+        // A frame about the axis in its own space. To the world it comes by a similarity, so it stays a frame.
+        const glm::dvec3 own = glm::normalize(c.p1 - c.p0);
+        const auto [s, t] = frame_about(own);
+        const glm::dvec3 world_s = glm::dmat3(m) * s, world_t = glm::dmat3(m) * t;
+        AnalyticCylinder cylinder{vec(p0 - origin_), vec(axis), vec(glm::normalize(world_s)), vec(glm::normalize(world_t)), c.radius * glm::length(world_s)};
+        if (!(cylinder.radius > 0.0) || !std::isfinite(cylinder.radius) || !(glm::length(axis) > 0.0))
+            throw Error(shape_.where.text() + ": a cylinder needs a positive radius and a length");
+        GeometryRecord g = record(GeometryKind::cylinder);
+        g.flip = g.flip != (glm::determinant(glm::dmat3(m)) < 0.0);
+        g.first = static_cast<std::uint32_t>(scene_.cylinders.size());
+        scene_.cylinders.push_back(cylinder);
+        scene_.geometries.push_back(g);
+        scene_.effects |= {Effect::analytic_shape};
+    }
+
 private:
+    /// Mitsuba's frame about a unit vector, whose first axis is where a cylinder's u begins.
+    /// Source: Duff et al. 2017, "Building an Orthonormal Basis, Revisited", JCGT 6(1)
+    static std::pair<glm::dvec3, glm::dvec3> frame_about(const glm::dvec3& n) {
+        const double sign = std::copysign(1.0, n.z), a = -1.0 / (sign + n.z), b = n.x * n.y * a;
+        return {{1.0 + sign * n.x * n.x * a, sign * b, -sign * n.x}, {b, sign + n.y * n.y * a, -n.y}};
+    }
     static Vec3d vec(glm::dvec3 v) { return {v.x, v.y, v.z}; }
 
     GeometryRecord record(GeometryKind kind) const {
@@ -112,7 +138,22 @@ private:
             }
             scene_.effects |= {Effect::shading_normals};
         }
+        add_attributes(mesh, g, base);
         scene_.geometries.push_back(g);
+    }
+
+    /// Values of this mesh for the textures that look them up.
+    void add_attributes(const MeshData& mesh, const GeometryRecord& g, std::uint32_t base) {
+        for (std::size_t i = 0; i < scene_.attribute_slots.size(); ++i) {
+            const AttributeSlot& slot = scene_.attribute_slots[i];
+            if (slot.index < 0) continue;
+            const std::string& name = std::get<MeshAttributeTexture>(scene_.textures[i]).name;
+            const auto found = std::find_if(mesh.attributes.begin(), mesh.attributes.end(), [&](const MeshAttribute& a) { return a.name == name; });
+            if (found == mesh.attributes.end()) continue;
+            std::vector<Vec3f>& values = scene_.attributes[static_cast<std::size_t>(slot.index)];
+            values.resize(slot.per_face ? g.first : base);
+            values.insert(values.end(), found->values.begin(), found->values.end());
+        }
     }
 
     Scene& scene_;
@@ -127,6 +168,10 @@ void compile_shapes(Scene& scene, glm::dvec3 origin) {
     // Arrays are parallel where they are used: pad the shorter ones to the vertex count.
     if (!scene.uvs.empty()) scene.uvs.resize(scene.positions.size());
     if (!scene.normals.empty()) scene.normals.resize(scene.positions.size(), Vec3f(0.0f));
+    // A shape without the attribute that its material looks up was refused with the materials.
+    for (std::size_t i = 0; i < scene.attribute_slots.size(); ++i)
+        if (const AttributeSlot& slot = scene.attribute_slots[i]; slot.index >= 0)
+            scene.attributes[static_cast<std::size_t>(slot.index)].resize(slot.per_face ? scene.triangles.size() : scene.positions.size(), Vec3f(0.0f));
 }
 
 }  // namespace koksma::detail

@@ -55,33 +55,16 @@ EnvironmentMap::EnvironmentMap(const MapEnvironment& description) : width_(descr
         row_weights.push_back(row_sum);
     }
     rows_ = DiscreteDistribution(row_weights);
+    cell_pdf_.reserve(static_cast<std::size_t>(width_) * rows);
+    for (int y = 0; y < rows; ++y)
+        for (int x = 0; x < width_; ++x) {
+            const float probability = is_black() ? 0.0f : rows_.probability(static_cast<std::uint32_t>(y)) * columns_[y].probability(static_cast<std::uint32_t>(x));
+            cell_pdf_.push_back(probability / (static_cast<float>(band(y)) / static_cast<float>(width_)));
+        }
     mean_ = to_float(sum * (1.0 / (4.0 * kPiDouble)));
 }
 
-glm::vec2 EnvironmentMap::to_uv(Vec3f d) const noexcept {
-    const Vec3f v{dot(axis_x_, d), dot(axis_y_, d), dot(axis_z_, d)};
-    float u = atan2_poly(v.x, -v.z) * (0.5f * kInvPi) - 0.5f / static_cast<float>(width_);  // a texel's column is its middle
-    if (u < 0.0f) u += 1.0f;
-    if (!(u < 1.0f)) u = 0.0f;  // -1e-10 + 1 rounds to 1
-    return {u, atan2_poly(std::sqrt(v.x * v.x + v.z * v.z), v.y) * kInvPi};
-}
-
-Vec3f EnvironmentMap::cell_lookup(float x, float y) const noexcept {
-    int ix = static_cast<int>(x), iy = static_cast<int>(y);
-    if (ix > width_ - 1) ix = width_ - 1;
-    if (iy > height_ - 2) iy = height_ - 2;
-    const float wx = x - static_cast<float>(ix), wy = y - static_cast<float>(iy);
-    const Vec3f* t = &texels_[static_cast<std::size_t>(iy) * (width_ + 1) + ix];
-    return (t[0] * (1.0f - wx) + t[1] * wx) * (1.0f - wy) + (t[width_ + 1] * (1.0f - wx) + t[width_ + 2] * wx) * wy;
-}
-
-Vec3f EnvironmentMap::radiance(Vec3f d) const noexcept {
-    const glm::vec2 uv = to_uv(d);
-    return cell_lookup(uv.x * static_cast<float>(width_), uv.y * static_cast<float>(height_ - 1));
-}
-
-EnvironmentMap::Sample EnvironmentMap::sample(glm::vec2 u) const noexcept {
-    if (!(rows_.total() > 0.0)) return {};
+Vec3f EnvironmentMap::sample(Vec2f u) const noexcept {
     const DiscreteSample row = rows_.sample(u.y);
     const DiscreteSample column = columns_[row.index].sample(u.x);
     // Uniform in solid angle within the cell: linear in azimuth and in the cosine.
@@ -91,19 +74,7 @@ EnvironmentMap::Sample EnvironmentMap::sample(glm::vec2 u) const noexcept {
     const auto cos_theta = static_cast<float>(c), sin_theta = static_cast<float>(std::sqrt(sin2 > 0.0 ? sin2 : 0.0));
     const SinCos phi = sincos_turns((static_cast<float>(column.index) + column.u + 0.5f) / static_cast<float>(width_));
     const Vec3f v{sin_theta * phi.sin, cos_theta, -sin_theta * phi.cos};
-    const Vec3f d = axis_x_ * v.x + axis_y_ * v.y + axis_z_ * v.z;
-    return {d, pdf(d)};
-}
-
-float EnvironmentMap::pdf(Vec3f d) const noexcept {
-    if (!(rows_.total() > 0.0)) return 0.0f;
-    const glm::vec2 uv = to_uv(d);
-    const int rows = height_ - 1;
-    int ix = static_cast<int>(uv.x * static_cast<float>(width_)), iy = static_cast<int>(uv.y * static_cast<float>(rows));
-    if (ix > width_ - 1) ix = width_ - 1;
-    if (iy > rows - 1) iy = rows - 1;
-    const auto cell = static_cast<float>(2.0 * kPiDouble * (row_cos_[iy] - row_cos_[iy + 1])) / static_cast<float>(width_);
-    return rows_.probability(static_cast<std::uint32_t>(iy)) * columns_[static_cast<std::size_t>(iy)].probability(static_cast<std::uint32_t>(ix)) / cell;
+    return axis_x_ * v.x + axis_y_ * v.y + axis_z_ * v.z;
 }
 
 }  // namespace koksma

@@ -9,9 +9,9 @@ namespace {
 
 constexpr EffectSet kAll = EffectSet::all();
 
-[[nodiscard]] Vec3f color(const Scene& scene, const TextureRef& ref, Vec2f uv) noexcept { return texture_value<kAll>(scene, ref, uv); }
+[[nodiscard]] Vec3f color(const Scene& scene, const TextureRef& ref, const SurfaceUv& uv) noexcept { return texture_value<kAll>(scene, ref, uv); }
 /// A texture as one number: of colours the luminance.
-[[nodiscard]] float number(const Scene& scene, const TextureRef& ref, Vec2f uv) noexcept {
+[[nodiscard]] float number(const Scene& scene, const TextureRef& ref, const SurfaceUv& uv) noexcept {
     if (ref.index < 0) return ref.constant.x;
     return luminance(color(scene, ref, uv));
 }
@@ -26,7 +26,7 @@ constexpr EffectSet kAll = EffectSet::all();
 
 // ---- parts that are BSDFs, textures looked up
 
-[[nodiscard]] RoughDielectricBsdf looked_up(const Scene& scene, const RoughDielectricPart& part, Vec2f uv) noexcept {
+[[nodiscard]] RoughDielectricBsdf looked_up(const Scene& scene, const RoughDielectricPart& part, const SurfaceUv& uv) noexcept {
     RoughDielectricBsdf b = part.bsdf;
     b.facets.alpha_u = roughness(number(scene, part.alpha_u, uv));
     b.facets.alpha_v = roughness(number(scene, part.alpha_v, uv));
@@ -34,20 +34,20 @@ constexpr EffectSet kAll = EffectSet::all();
     b.transmittance = color(scene, part.transmittance, uv);
     return b;
 }
-[[nodiscard]] PlasticBsdf looked_up(const Scene& scene, const PlasticPart& part, Vec2f uv) noexcept {
+[[nodiscard]] PlasticBsdf looked_up(const Scene& scene, const PlasticPart& part, const SurfaceUv& uv) noexcept {
     PlasticBsdf b = part.bsdf;
     b.base.diffuse = color(scene, part.diffuse, uv);
     b.base.specular = color(scene, part.specular, uv);
     return b;
 }
 
-[[nodiscard]] RoughPlasticBsdf looked_up(const Scene& scene, const RoughPlasticPart& part, Vec2f uv) noexcept {
+[[nodiscard]] RoughPlasticBsdf looked_up(const Scene& scene, const RoughPlasticPart& part, const SurfaceUv& uv) noexcept {
     RoughPlasticBsdf b = part.bsdf;
     b.base.diffuse = color(scene, part.diffuse, uv);
     b.base.specular = color(scene, part.specular, uv);
     return b;
 }
-[[nodiscard]] PrincipledBsdf looked_up(const Scene& scene, const PrincipledPart& part, Vec2f uv) noexcept {
+[[nodiscard]] PrincipledBsdf looked_up(const Scene& scene, const PrincipledPart& part, const SurfaceUv& uv) noexcept {
     PrincipledBsdf b = part.bsdf;
     const auto slider = [&](const TextureRef& ref) { return unit(number(scene, ref, uv)); };
     b.base_color = color(scene, part.base_color, uv);
@@ -65,7 +65,7 @@ constexpr EffectSet kAll = EffectSet::all();
 }
 
 template <class Part>
-constexpr bool kIsBsdf = requires(const Scene& scene, const Part& part) { looked_up(scene, part, Vec2f{}); };
+constexpr bool kIsBsdf = requires(const Scene& scene, const Part& part) { looked_up(scene, part, SurfaceUv{}); };
 
 [[nodiscard]] Vec3f turned_over(Vec3f w) noexcept { return {w.x, w.y, -w.z}; }
 
@@ -103,6 +103,11 @@ struct Tangents {
         const auto radius = static_cast<float>(sphere.radius);
         du = Vec3f{-phi.sin, phi.cos, 0.0f} * (2.0f * kPi * radius * theta.sin);
         dv = Vec3f{phi.cos * theta.cos, phi.sin * theta.cos, -theta.sin} * (kPi * radius);
+    } else if (g.kind == GeometryKind::cylinder) {
+        const AnalyticCylinder& c = scene.cylinders[g.first];
+        const SinCos phi = sincos_turns(at.uv.x);
+        du = (to_float(c.t) * phi.cos - to_float(c.s) * phi.sin) * (2.0f * kPi * static_cast<float>(c.radius));
+        dv = to_float(c.axis);
     } else {
         const AnalyticDisk& disk = scene.disks[g.first];
         const SinCos phi = sincos_turns(at.uv.y);
@@ -120,7 +125,7 @@ struct Tangents {
 /// Source: Blinn 1978, "Simulation of wrinkled surfaces"
 [[nodiscard]] Vec3f bent_normal(const Scene& scene, const BumpMapPart& part, const LayeredPoint& at) noexcept {
     if (part.height.index < 0) return {0.0f, 0.0f, 1.0f};
-    const Vec2f slope = gradient(scene.textures[static_cast<std::size_t>(part.height.index)], at.uv);
+    const Vec2f slope = gradient(scene.textures[static_cast<std::size_t>(part.height.index)], {at.uv.x, at.uv.y});
     Tangents t = tangents(scene, at);
     t.u.z = part.scale * slope.x;
     t.v.z = part.scale * slope.y;

@@ -56,6 +56,13 @@ LightLeaf whole_light(const Scene& scene, std::uint32_t index, double radiance) 
         leaf.lo = leaf.hi = to_double(light.corner);
         return leaf;
     }
+    if (light.kind == LightKind::spot || light.kind == LightKind::projector) {
+        // All of its light goes where the leaf takes it to go: within a quarter turn of a normal.
+        const Beam& beam = scene.beams[light.geometry];
+        leaf.lo = leaf.hi = to_double(light.corner);
+        leaf.normals = {beam.axis, std::max(0.0f, beam.cutoff - 1.57f)};
+        return leaf;
+    }
     const GeometryRecord& g = scene.geometries[light.geometry];
     Vec3d middle, half;
     leaf.intensity = radiance * light.area;
@@ -64,6 +71,11 @@ LightLeaf whole_light(const Scene& scene, std::uint32_t index, double radiance) 
         middle = sphere.center;
         half = Vec3d(sphere.radius);
         leaf.intensity *= 0.25;  // it shows a disk, a quarter of its area
+    } else if (light.kind == LightKind::cylinder) {
+        const AnalyticCylinder& c = scene.cylinders[g.first];
+        middle = c.base + c.axis * 0.5;
+        half = reach(c);
+        leaf.intensity *= 1.0 / 3.141592653589793;  // it shows at most a rectangle, 1/pi of its area
     } else if (light.kind == LightKind::disk) {
         const AnalyticDisk& disk = scene.disks[g.first];
         const auto reach = [](double s, double t) { return std::sqrt(s * s + t * t); };
@@ -92,7 +104,7 @@ LightLeaf whole_light(const Scene& scene, std::uint32_t index, double radiance) 
 std::vector<LightLeaf> light_leaves(const Scene& scene, std::span<const double> radiances) {
     std::vector<LightLeaf> leaves;
     for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
-        if (scene.lights[i].kind == LightKind::environment) continue;
+        if (scene.lights[i].kind == LightKind::environment || scene.lights[i].kind == LightKind::directional) continue;
         if (scene.lights[i].kind == LightKind::mesh)
             add_triangles(leaves, scene, i, radiances[i]);
         else

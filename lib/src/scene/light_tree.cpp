@@ -39,10 +39,17 @@ constexpr float kSmallestProbability = 1e-30f;
     return sum;
 }
 
-/// The environment gets its share; all, where the tree has nothing to give.
-[[nodiscard]] float environment_probability(const LightTree& tree, bool tree_can) noexcept {
-    if (tree_can) return tree.environment_share;
-    return tree.environment_share > 0.0f ? 1.0f : 0.0f;
+/// Lights at infinity get their share; all, where the tree has nothing to give.
+[[nodiscard]] float distant_probability(const LightTree& tree, bool tree_can) noexcept {
+    if (tree_can) return tree.distant_share;
+    return tree.distant_share > 0.0f ? 1.0f : 0.0f;
+}
+
+/// One of the lights at infinity. @param share  probability that it is one of them
+[[nodiscard]] LightChoice choose_distant(const LightTree& tree, float share, float u) noexcept {
+    std::size_t k = 0;
+    for (; k + 1 < tree.distant.size() && u >= tree.distant[k].probability; ++k) u -= tree.distant[k].probability;
+    return {tree.distant[k].light, kWholeLight, share * tree.distant[k].probability, below_one(u / tree.distant[k].probability)};
 }
 
 }  // namespace
@@ -98,8 +105,8 @@ LightChoice LightTree::choose(Vec3f p, Vec3f n, float u) const noexcept {
     const Vec3f q = pulled(p);
     Lanes lanes = nodes.empty() ? Lanes{} : importance(nodes[0], q, n);
     float sum = total(lanes);
-    const float share = environment_probability(*this, sum > 0.0f);
-    if (u < share) return {environment, kWholeLight, share, below_one(u / share)};
+    const float share = distant_probability(*this, sum > 0.0f);
+    if (u < share) return choose_distant(*this, share, below_one(u / share));
     float probability = 1.0f - share;
     if (share > 0.0f) u = below_one((u - share) / probability);
     for (std::uint32_t node = 0; sum > 0.0f;) {
@@ -128,8 +135,10 @@ float LightTree::probability(std::uint32_t light, std::uint32_t triangle, Vec3f 
     const Vec3f q = pulled(p);
     Lanes lanes = nodes.empty() ? Lanes{} : importance(nodes[0], q, n);
     float sum = total(lanes);
-    const float share = environment_probability(*this, sum > 0.0f);
-    if (environment_share > 0.0f && light == environment) return share;
+    const float share = distant_probability(*this, sum > 0.0f);
+    if (distant_share > 0.0f)
+        for (const Distant& d : distant)
+            if (d.light == light) return share * d.probability;
     float probability = 1.0f - share;
     std::uint64_t trail = trails[first_trail[light] + (triangle == kWholeLight ? 0 : triangle)];
     for (std::uint32_t node = 0; trail != 0 && sum > 0.0f;) {

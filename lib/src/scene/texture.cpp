@@ -59,6 +59,7 @@ Vec3f lookup(const CheckerboardTexture& texture, glm::vec2 uv) noexcept {
 Vec3f lookup(const Texture& texture, glm::vec2 uv) noexcept {
     if (const auto* bitmap = std::get_if<BitmapTexture>(&texture)) return lookup(*bitmap, uv);
     if (const auto* checkerboard = std::get_if<CheckerboardTexture>(&texture)) return lookup(*checkerboard, uv);
+    if (std::holds_alternative<MeshAttributeTexture>(texture)) return Vec3f{0.0f};  // who has the mesh looks it up there
     return std::get<Rgb>(texture);
 }
 
@@ -89,6 +90,7 @@ Vec3f mean(const Texture& texture) {
         return to_float(sum / static_cast<double>(bitmap->image->texels.size()));
     }
     if (const auto* checkerboard = std::get_if<CheckerboardTexture>(&texture)) return (Vec3f(checkerboard->color0) + Vec3f(checkerboard->color1)) * 0.5f;
+    if (std::holds_alternative<MeshAttributeTexture>(texture)) return Vec3f{0.0f};  // unknown here; lights do not take it
     return std::get<Rgb>(texture);
 }
 

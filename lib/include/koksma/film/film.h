@@ -24,6 +24,9 @@ struct InvalidSample {
 };
 [[nodiscard]] const char* name(InvalidSample::Kind kind) noexcept;
 
+/// Linear sRGB to CIE XYZ (D65), in Mitsuba's digits.
+[[nodiscard]] Vec3d xyz_of(Vec3d rgb) noexcept;
+
 /// Classifies radiance. @return true and the kind if it is invalid
 [[nodiscard]] bool is_invalid(Vec3f radiance, InvalidSample::Kind& kind) noexcept;
 
@@ -34,7 +37,9 @@ public:
     static constexpr std::uint64_t kChunk = 64;
 
     Film() = default;
-    explicit Film(PixelRect rect) : rect_(rect), sums_(static_cast<std::size_t>(rect.area())), counts_(sums_.size()) {}
+    /// @param moments  also sum the squares of the samples' X, Y, Z
+    explicit Film(PixelRect rect, bool moments = false)
+        : rect_(rect), sums_(static_cast<std::size_t>(rect.area())), squares_(moments ? sums_.size() : 0), counts_(sums_.size()) {}
 
     [[nodiscard]] PixelRect rect() const noexcept { return rect_; }
 
@@ -47,6 +52,9 @@ public:
     /// Mean radiance of a pixel, (0, 0, 0) before the first sample.
     [[nodiscard]] Vec3d mean(Pixel pixel) const noexcept;
     [[nodiscard]] std::uint64_t count(Pixel pixel) const noexcept { return counts_[index(pixel)]; }
+    [[nodiscard]] bool has_moments() const noexcept { return !squares_.empty(); }
+    /// Means of X^2, Y^2, Z^2 over the samples of a pixel; zero without moments.
+    [[nodiscard]] Vec3d second_moment(Pixel pixel) const noexcept;
     /// All means as floats, shape (height, width, 3).
     [[nodiscard]] std::vector<float> image() const;
     /// Mean over all pixels.
@@ -63,7 +71,7 @@ private:
         void add(Vec3d v) noexcept;
         [[nodiscard]] Vec3d value() const noexcept { return high + low; }
     };
-    std::vector<Sum> sums_;
+    std::vector<Sum> sums_, squares_;
     std::vector<std::uint64_t> counts_;
 };
 

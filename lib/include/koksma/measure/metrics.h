@@ -20,6 +20,7 @@ struct ImageError {
     double rmse = 0;    ///< its root
     double relmse = 0;  ///< mean of (a - b)^2 / (b^2 + eps), b the reference; NaN for a black reference
     double mae = 0;     ///< mean of |a - b|
+    double smape = 0;   ///< mean of |a - b| / (|a| + |b|), 0 where both are 0: 0 to 1, half of what those call SMAPE who halve the denominator
     double max_abs = 0;
     double mean_a[3] = {}, mean_b[3] = {};
     std::int64_t pixels = 0;        ///< compared
@@ -36,6 +37,8 @@ struct ReferenceError {
     double relmse = 0;        ///< corrected likewise, with the denominators of the reference
     double mse_floor = 0;     ///< what was subtracted: mean variance of the reference mean
     double relmse_floor = 0;  ///< mean of variance / (r^2 + eps)
+    double mae = 0;           ///< as in ImageError, and like smape not corrected: against the reference as it is
+    double smape = 0;
     std::int64_t pixels = 0;
     std::int64_t non_finite_image = 0;      ///< pixels with a NaN or an infinity
     std::int64_t non_finite_reference = 0;  ///< in its mean or its variance
@@ -49,8 +52,9 @@ struct ReferenceError {
 /// Errors of one replicate against a reference independent of it, corrected for the reference's variance.
 /// @param  reference_mean              r, same shape
 /// @param  reference_variance_of_mean  s^2 / K over K independent batches, same shape, or empty: no correction
+/// @param  skip                        pixels that are not 0 here are left out (but eps of relMSE is that of the whole reference); empty: none
 /// @throws                             Error if the sizes differ, are 0 or are no multiple of 3
 [[nodiscard]] ReferenceError compare_to_reference(std::span<const float> image, std::span<const float> reference_mean,
-                                                  std::span<const float> reference_variance_of_mean);
+                                                  std::span<const float> reference_variance_of_mean, std::span<const unsigned char> skip = {});
 
 }  // namespace koksma

@@ -18,6 +18,7 @@
 // One comparison at 95 % errs once in twenty: of many samplers on many scenes some are distinguishable by chance.
 
 #include <span>
+#include <vector>
 
 namespace koksma {
 
@@ -36,6 +37,20 @@ struct Gain {
 /// @param  confidence  (0, 1)
 /// @throws             Error if confidence is outside (0, 1)
 [[nodiscard]] Gain gain(std::span<const double> a, std::span<const double> b, double confidence = 0.95);
+
+/// Two sets of replicates and the p of their means being equal.
+struct Comparison {
+    Gain gain;
+    double p = 0;       ///< two-sided, of the interval's method: below 1 - confidence exactly where the interval excludes 1; NaN without one
+    double p_holm = 0;  ///< adjusted by holm(); NaN where p is
+    /// The family of comparisons errs with at most this probability. False where p_holm is NaN.
+    [[nodiscard]] bool distinguishable(double alpha = 0.05) const noexcept { return p_holm < alpha; }
+};
+[[nodiscard]] Comparison compare_errors(std::span<const double> a, std::span<const double> b, double confidence = 0.95);
+
+/// Sets p_holm of a family of comparisons: the i-th smallest p times (n - i), never less than a smaller p's. Those without a p do not count.
+/// Source: Holm 1979, "A simple sequentially rejective multiple test procedure", Scandinavian Journal of Statistics 6(2)
+void holm(std::vector<Comparison>& family);
 
 /// The same where B was not measured at A's number of samples but below and above it: B's error there is taken to lie on a straight
 /// line in log-log. The interval does not speak of how far it does not.

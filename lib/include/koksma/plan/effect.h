@@ -14,7 +14,7 @@ enum class Effect : std::uint8_t {
     light_choice,     ///< more than one light: a 1-D draw per bounce
     area_light,       ///< surfaces that emit: a 2-D draw per bounce, MIS
     sphere_light,     ///< among them spheres, sampled by their cone
-    point_light,      ///< lights that only direct sampling can find
+    point_light,      ///< lights that only direct sampling can find: points, spots, directional lights, projectors
     environment,      ///< light from infinity
     diffuse,          ///< smooth BSDFs: a 2-D draw per bounce, direct light
     glossy,           ///< microfacet BSDFs
@@ -22,21 +22,22 @@ enum class Effect : std::uint8_t {
     dielectric,       ///< refraction: a path keeps the index that it is in
     two_sided,        ///< materials seen from behind
     texture,          ///< values that vary over a surface
-    analytic_shape,   ///< spheres and disks
+    analytic_shape,   ///< spheres, disks and cylinders
     shading_normals,  ///< interpolated normals
     anisotropic,      ///< BSDFs that depend on the direction of u: a frame from the UVs
     roulette,         ///< Russian roulette: a 1-D draw per bounce from rr_depth on
     many_lights,      ///< so many that one is chosen for the point to be lit, by a tree
+    mesh_attribute,   ///< textures that look up values of vertices and faces
     lobe,             ///< BSDFs that choose among lobes: a 1-D draw per bounce
     layered,          ///< materials of several lobes or parts (koksma/scene/bsdf/layered.h), computed one path at a time
 };
-inline constexpr int kEffectCount = 19;
+inline constexpr int kEffectCount = 20;
 
 [[nodiscard]] constexpr std::string_view name(Effect e) noexcept {
     constexpr std::string_view kNames[kEffectCount] = {"lens",       "light_choice", "area_light", "sphere_light",   "point_light",
                                                        "environment", "diffuse",      "glossy",     "specular",       "dielectric",
                                                        "two_sided",  "texture",      "analytic_shape", "shading_normals", "anisotropic",
-                                                       "roulette",   "many_lights",  "lobe",           "layered"};
+                                                       "roulette",   "many_lights",  "mesh_attribute", "lobe",          "layered"};
     return kNames[static_cast<int>(e)];
 }
 
@@ -52,6 +53,7 @@ struct EffectSet {
     [[nodiscard]] static constexpr EffectSet all() { return EffectSet((1u << kEffectCount) - 1); }
     [[nodiscard]] constexpr bool has(Effect e) const noexcept { return (bits & bit(e)) != 0; }
     [[nodiscard]] constexpr bool contains(EffectSet other) const noexcept { return (bits & other.bits) == other.bits; }
+    [[nodiscard]] constexpr EffectSet without(Effect e) const noexcept { return EffectSet(bits & ~bit(e)); }
     [[nodiscard]] constexpr int size() const noexcept {
         int n = 0;
         for (std::uint32_t b = bits; b != 0; b &= b - 1) ++n;

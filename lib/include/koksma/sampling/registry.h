@@ -64,9 +64,12 @@ private:
     class SourceWithTables final : public SampleSource {
     public:
         SourceWithTables(const SamplerOptions& options, const SamplingPlan& plan, TablesPtr tables)
-            : SampleSource(plan.seed, T::info().max_dimensions), tables_(std::move(tables)), source_(options, plan, *tables_) {}
+            : SampleSource(plan.seed, T::info().max_dimensions, BatchSampler<T>), tables_(std::move(tables)), source_(options, plan, *tables_) {}
         void fill(std::span<const SampleId> samples, SlotRun run, float* out, std::size_t stride) const noexcept override {
             source_.fill(samples, run, out, stride);
+        }
+        void fill_scalar(std::span<const SampleId> samples, SlotRun run, float* out, std::size_t stride) const noexcept override {
+            source_.fill_scalar(samples, run, out, stride);
         }
 
     private:
@@ -88,7 +91,7 @@ public:
         SamplerInfo info = T::info();
         for (const Entry& e : entries_)
             if (e.info.name == info.name) throw Error("two samplers are named '" + info.name + "'");
-        entries_.push_back({std::move(info), [](std::string_view given) -> std::unique_ptr<SamplerFactory> {
+        entries_.push_back({std::move(info), BatchSampler<T>, [](std::string_view given) -> std::unique_ptr<SamplerFactory> {
                                 return std::make_unique<detail::TypedFactory<T>>(given);
                             }});
         std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) { return a.info.name < b.info.name; });
@@ -112,6 +115,10 @@ public:
         for (const Entry& e : entries_) all.push_back(e.info);
         return all;
     }
+    /// Whether the sampler brings a fill of its own.
+    [[nodiscard]] bool vectorised(std::string_view name) const noexcept {
+        return std::any_of(entries_.begin(), entries_.end(), [&](const Entry& e) { return e.info.name == name && e.vectorised; });
+    }
     [[nodiscard]] bool contains(std::string_view name) const noexcept {
         return std::any_of(entries_.begin(), entries_.end(), [&](const Entry& e) { return e.info.name == name; });
     }
@@ -119,6 +126,7 @@ public:
 private:
     struct Entry {
         SamplerInfo info;
+        bool vectorised;
         std::function<std::unique_ptr<SamplerFactory>(std::string_view)> make;
     };
     std::vector<Entry> entries_;

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 
@@ -24,6 +25,15 @@ struct alignas(4 * N) RayPacket {
 /// How alike the rays of a packet are. `coherent` for rays from one point through neighbouring pixels; it is dear elsewhere.
 enum class Coherence : std::uint8_t { incoherent, coherent };
 
+/// A query of a packet, as a watcher sees it.
+struct PacketQuery {
+    int width = 0;                     ///< N of the packet
+    bool shadow = false;
+    Coherence coherence = Coherence::incoherent;
+    const float* rays = nullptr;       ///< the packet's rows from o_x to t_far
+    const std::int32_t* valid = nullptr;
+};
+
 /// A robust Embree scene (watertight at edges, no leaks). Geometries get the ids 0, 1, 2, ... in the order of adding.
 /// Thread-safe once committed. Rays must be finite with a direction that is not zero: callers check.
 class Accelerator {
@@ -37,8 +47,12 @@ public:
     void add_mesh(std::span<const Vec3f> vertices, std::span<const std::array<std::uint32_t, 3>> triangles);
     void add_sphere(const AnalyticSphere& sphere);
     void add_disk(const AnalyticDisk& disk);
-    /// Builds the BVH with all of TBB's threads.
-    void commit();
+    void add_cylinder(const AnalyticCylinder& cylinder);
+    /// Builds the BVH with all of TBB's threads. Once more: builds it anew.
+    /// @param robust  false only to measure what it costs: rays then slip through edges
+    void commit(bool robust = true);
+    /// Calls the watcher before every packet, for measurements with one thread; an empty one ends that.
+    void watch(std::function<void(const PacketQuery&)> watcher);
 
     [[nodiscard]] Hit intersect(const Ray& ray) const noexcept;
     /// True if anything lies between t_near and t_far.

@@ -9,3 +9,4 @@
 #include <koksma/scene/triangle.h>
 #include <koksma/scene/light_maths.h>
 #include <koksma/scene/camera.h>
+#include <koksma/scene/environment_value.h>

@@ -19,6 +19,12 @@ struct AnalyticDisk {
     Vec3d center, s, t;
 };
 
+/// A tube without caps from base to base + axis; s and t are unit, at right angles to the axis and to each other.
+struct AnalyticCylinder {
+    Vec3d base, axis, s, t;
+    double radius = 1.0;
+};
+
 /// @return  the first t in (t_near, t_far) at which the ray meets the sphere, from outside or from inside; infinity if none
 /// Source: the discriminant by projection, Haines et al. 2019, Ray Tracing Gems, chapter 7
 [[nodiscard]] inline double intersect(const AnalyticSphere& sphere, const Ray& ray) noexcept {
@@ -54,6 +60,41 @@ struct DiskHit {
     const double x = dot(cross(q, disk.t), n) / nn, y = dot(cross(disk.s, q), n) / nn;
     if (!(x * x + y * y <= 1.0)) return {};
     return {t, x, y};
+}
+
+/// A point of a tube in its own coordinates: direction from the axis, and the way along it in [0, 1].
+struct CylinderHit {
+    double t = kInfinity, cosine = 1.0, sine = 0.0, along = 0.0;
+};
+
+/// As for the sphere, in the plane across the axis.
+[[nodiscard]] inline CylinderHit intersect(const AnalyticCylinder& c, const Ray& ray) noexcept {
+    const Vec3d d = to_double(ray.d), o = to_double(ray.o) - c.base;
+    const double dx = dot(d, c.s), dy = dot(d, c.t), ox = dot(o, c.s), oy = dot(o, c.t);
+    const double axis2 = dot(c.axis, c.axis), dz = dot(d, c.axis) / axis2, oz = dot(o, c.axis) / axis2;
+    const double a = dx * dx + dy * dy, r2 = c.radius * c.radius;
+    if (!(a > 0.0)) return {};  // along the axis
+    const double b = -(dx * ox + dy * oy);
+    const double lx = ox + dx * (b / a), ly = oy + dy * (b / a);
+    const double discriminant = r2 - lx * lx - ly * ly;
+    if (!(discriminant >= 0.0)) return {};
+    const double q = b + std::copysign(std::sqrt(a * discriminant), b);
+    double t0 = (ox * ox + oy * oy - r2) / q, t1 = q / a;
+    if (q == 0.0) t0 = t1;
+    if (t0 > t1) std::swap(t0, t1);
+    for (const double t : {t0, t1}) {
+        const double along = oz + dz * t;
+        if (!(t > ray.t_near && t < ray.t_far && along >= 0.0 && along <= 1.0)) continue;
+        const double x = ox + dx * t, y = oy + dy * t, inverse = 1.0 / std::sqrt(x * x + y * y);
+        return {t, x * inverse, y * inverse, along};
+    }
+    return {};
+}
+
+/// Half extents of the box around a tube, about its middle.
+[[nodiscard]] inline Vec3d reach(const AnalyticCylinder& c) noexcept {
+    const auto one = [&](double s, double t, double a) { return c.radius * std::sqrt(s * s + t * t) + 0.5 * std::fabs(a); };
+    return {one(c.s.x, c.t.x, c.axis.x), one(c.s.y, c.t.y, c.axis.y), one(c.s.z, c.t.z, c.axis.z)};
 }
 
 }  // namespace koksma

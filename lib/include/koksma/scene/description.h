@@ -51,8 +51,14 @@ struct CheckerboardTexture {
     glm::dmat3 to_uv{1.0};
 };
 
+/// Values that a mesh brings along, per vertex or per face.
+struct MeshAttributeTexture {
+    std::string name;  ///< "vertex_color", "face_color" ...
+    float scale = 1.0f;
+};
+
 /// A value per point of a surface; a constant is the common case.
-using Texture = std::variant<Rgb, BitmapTexture, CheckerboardTexture>;
+using Texture = std::variant<Rgb, BitmapTexture, CheckerboardTexture, MeshAttributeTexture>;
 
 // ------------------------------------------------------------------------------------------------ materials
 
@@ -153,12 +159,21 @@ struct Material {
 
 // ------------------------------------------------------------------------------------------------ shapes
 
+/// Colours, or numbers as greys, of vertices or faces.
+struct MeshAttribute {
+    std::string name;           ///< begins with "vertex_" or "face_"
+    std::vector<Rgb> values;    ///< per vertex, or per triangle
+    [[nodiscard]] bool per_face() const noexcept { return name.starts_with("face_"); }
+};
+
 /// A triangle mesh in its own space.
 struct MeshData {
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals;    ///< per vertex, or empty: faceted (load_scene() computes smooth ones where a file has none)
     std::vector<glm::vec2> uvs;        ///< per vertex, or empty
     std::vector<std::array<std::uint32_t, 3>> triangles;
+    std::vector<MeshAttribute> attributes{};
+    bool faceted = false;              ///< the file asks for no normals
 };
 struct MeshShape {
     std::shared_ptr<const MeshData> data;
@@ -170,7 +185,12 @@ struct SphereShape {
     glm::dvec3 center{0.0};
     double radius = 1.0;
 };
-using Geometry = std::variant<MeshShape, RectangleShape, DiskShape, CubeShape, SphereShape>;
+/// A tube without caps.
+struct CylinderShape {
+    glm::dvec3 p0{0.0}, p1{0.0, 0.0, 1.0};
+    double radius = 1.0;
+};
+using Geometry = std::variant<MeshShape, RectangleShape, DiskShape, CubeShape, SphereShape, CylinderShape>;
 
 /// One-sided diffuse emission of a surface.
 struct AreaEmission {
@@ -196,6 +216,32 @@ struct PointLight {
     Rgb intensity{1.0f};  ///< W sr^-1
     SourceLocation where;
 };
+/// A point that shines along its own +z, fully within the beam's half angle, then falling off linearly in the angle to the cutoff.
+struct SpotLight {
+    glm::dmat4 to_world{1.0};
+    Rgb intensity{1.0f};  ///< W sr^-1, within the beam
+    double cutoff_degrees = 20.0, beam_degrees = 15.0;  ///< half angles
+    std::optional<Texture> texture;  ///< a factor; its unit square spans the cone of the cutoff
+    SourceLocation where;
+};
+/// Parallel light from infinity.
+struct DirectionalLight {
+    glm::dvec3 direction{0.0, 0.0, 1.0};  ///< that the light travels in; any length
+    Rgb irradiance{1.0f};                 ///< W m^-2, of a surface that faces the light
+    SourceLocation where;
+};
+/// A perspective camera that shines: it gives the plane at distance 1 the irradiance pi scale irradiance(u, v), as in Mitsuba.
+struct ProjectorLight {
+    glm::dmat4 to_world{1.0};
+    Texture irradiance = Rgb(1.0f);
+    double scale = 1.0;
+    double fov_x_degrees = 50.0;
+    double aspect = 1.0;  ///< width / height of the picture
+    SourceLocation where;
+};
+/// Lights without extent besides points.
+using DeltaLight = std::variant<SpotLight, DirectionalLight, ProjectorLight>;
+
 /// Radiance from all directions.
 struct ConstantEnvironment {
     Rgb radiance{1.0f};
@@ -215,6 +261,7 @@ using Environment = std::variant<ConstantEnvironment, MapEnvironment>;
 struct Camera {
     glm::dmat4 to_world{1.0};     ///< camera looks along its +z, +x is left in the image (Mitsuba's frame)
     double fov_x_degrees = 50.0;  ///< horizontal, of the full film (fov_axis is resolved by the loader)
+    bool orthographic = false;    ///< parallel rays from [-1, 1] x [-1, 1] height / width of the camera's own plane; to_world may scale
     double near_clip = 1e-2, far_clip = 1e4;   ///< distances along the camera's z
     double aperture_radius = 0.0;              ///< 0: pinhole
     double focus_distance = 1e4;               ///< distance along z of the plane in focus
@@ -222,15 +269,28 @@ struct Camera {
     SourceLocation where;
 };
 
+/// Where in and around its pixel a sample lies. Positions are drawn from the filter, so every sample has weight one.
+struct ReconstructionFilter {
+    enum class Kind : std::uint8_t { box, tent, gaussian } kind = Kind::box;
+    double radius = 0.5;  ///< pixels, of box and tent; a gaussian ends at four standard deviations
+    double stddev = 0.5;  ///< pixels, of the gaussian
+    /// True: samples of the outermost pixels may lie beyond the film; false: the part of the filter there is cut off.
+    bool beyond_film = false;
+    /// Every sample lies in its own pixel, uniformly.
+    [[nodiscard]] bool is_pixel() const noexcept { return kind == Kind::box && radius == 0.5; }
+};
+
 struct FilmSettings {
     std::int32_t width = 768, height = 576;
     std::int32_t crop_x = 0, crop_y = 0, crop_width = 0, crop_height = 0;  ///< crop_width 0: the whole film
+    ReconstructionFilter filter;
 };
 
 struct IntegratorSettings {
     std::int32_t max_depth = -1;  ///< longest path in vertices after the camera; 1: emission seen directly; -1: no limit
     std::int32_t rr_depth = 5;    ///< roulette from this depth on
     bool hide_emitters = false;   ///< directly visible emitters are black
+    std::string moments;          ///< name under which moments of the samples are written beside the image; empty: none are kept
 };
 
 /// The whole of a scene file.
@@ -239,6 +299,7 @@ struct SceneDescription {
     std::vector<Material> materials;  ///< [0] is the default diffuse of reflectance 0.5
     std::vector<Shape> shapes;
     std::vector<PointLight> point_lights;
+    std::vector<DeltaLight> delta_lights;
     std::optional<Environment> environment;
     Camera camera;
     FilmSettings film;

@@ -32,6 +32,7 @@ public:
         }
         total_ = sum;
         inv_total_ = sum > 0.0 ? 1.0 / sum : 0.0;
+        if (cdf_.size() >= kGuided && sum > 0.0) make_guide();
     }
     [[nodiscard]] double total() const noexcept { return total_; }
     [[nodiscard]] std::size_t size() const noexcept { return cdf_.size(); }
@@ -41,7 +42,7 @@ public:
     /// The first index whose prefix sum is above u * total: entries of weight zero are skipped at both ends and between.
     [[nodiscard]] DiscreteSample sample(float u) const noexcept {
         const double x = static_cast<double>(u) * total_;
-        auto i = static_cast<std::uint32_t>(std::upper_bound(cdf_.begin(), cdf_.end(), x) - cdf_.begin());
+        auto i = search(u, x);
         if (i > last_) i = last_;  // u * total may round up to the total
         const double below = i == 0 ? 0.0 : cdf_[i - 1];
         const double width = cdf_[i] - below;
@@ -55,6 +56,32 @@ public:
     [[nodiscard]] double inverse_total() const noexcept { return inv_total_; }
 
 private:
+    static constexpr std::size_t kGuided = 32;
+
+    /// Where to look for the entries of each of n equal parts of [0, 1): sampling in constant time on average.
+    /// Source: Chen and Asau 1974, "On generating random variates from an empirical distribution" (the guide table)
+    void make_guide() {
+        const std::size_t n = cdf_.size();
+        guide_.resize(n + 1);
+        std::size_t i = 0;
+        for (std::size_t part = 0; part <= n; ++part) {
+            const double x = static_cast<double>(part) / static_cast<double>(n) * total_;
+            while (i < n && !(cdf_[i] > x)) ++i;
+            guide_[part] = static_cast<std::uint32_t>(i);
+        }
+    }
+    /// The first index whose prefix sum is above x = u * total.
+    [[nodiscard]] std::uint32_t search(float u, double x) const noexcept {
+        auto first = cdf_.begin(), last = cdf_.end();
+        if (!guide_.empty()) {
+            // One part more on both sides: the product may have rounded across the edge of a part.
+            const std::size_t n = cdf_.size(), part = static_cast<std::size_t>(static_cast<double>(u) * static_cast<double>(n));
+            last = first + std::min<std::size_t>(guide_[std::min(part + 2, n)] + 1, n);
+            first += guide_[part > 0 ? part - 1 : 0];
+        }
+        return static_cast<std::uint32_t>(std::upper_bound(first, last, x) - cdf_.begin());
+    }
+    std::vector<std::uint32_t> guide_;
     std::vector<double> cdf_;
     double total_ = 0.0, inv_total_ = 0.0;
     std::uint32_t last_ = 0;

@@ -3,6 +3,7 @@
 
 #include <koksma/scene/description.h>
 #include <koksma/scene/distribution.h>
+#include <koksma/scene/environment_value.h>
 #include <koksma/math/vec3.h>
 
 #include <vector>
@@ -16,25 +17,20 @@ class EnvironmentMap {
 public:
     explicit EnvironmentMap(const MapEnvironment& description);
 
-    /// @param d  unit, world space
-    [[nodiscard]] Vec3f radiance(Vec3f d) const noexcept;
-    /// Draws a direction. @return pdf 0 if the map is black
-    struct Sample {
-        Vec3f d;
-        float pdf_w = 0.0f;  ///< per steradian
-    };
-    [[nodiscard]] Sample sample(glm::vec2 u) const noexcept;
-    [[nodiscard]] float pdf(Vec3f d) const noexcept;
+    /// For environment_value(): radiance and density of a direction.
+    [[nodiscard]] EnvironmentTable table() const noexcept { return {width_, height_, texels_.data(), cell_pdf_.data(), axis_x_, axis_y_, axis_z_}; }
+    [[nodiscard]] bool is_black() const noexcept { return !(rows_.total() > 0.0); }
+    /// Draws a direction by cells; its density is environment_value's. @pre  !is_black()
+    [[nodiscard]] Vec3f sample(Vec2f u) const noexcept;
     /// Mean radiance over the sphere.
     [[nodiscard]] Vec3f mean_radiance() const noexcept { return mean_; }
 
 private:
-    [[nodiscard]] glm::vec2 to_uv(Vec3f d) const noexcept;
-    [[nodiscard]] Vec3f cell_lookup(float x, float y) const noexcept;
     int width_, height_;             ///< cells per row (wrapping), rows of texels
     std::vector<Vec3f> texels_;      ///< (height, width + 1): the first column is repeated at the end
     Vec3f axis_x_, axis_y_, axis_z_; ///< rows of world-to-map
     std::vector<double> row_cos_;    ///< cosine of the polar angle of each row of texels
+    std::vector<float> cell_pdf_;
     DiscreteDistribution rows_;
     std::vector<DiscreteDistribution> columns_;
     Vec3f mean_{0.0f};

@@ -27,7 +27,7 @@ template <EffectSet kEffects>
 template <EffectSet kEffects>
 [[nodiscard]] Vec3f environment_radiance(const Scene& scene, Vec3f d) noexcept {
     if (scene.environment_light < 0) return Vec3f{0.0f};
-    if (scene.environment_map) return scene.environment_map->radiance(d);
+    if (scene.environment_map) return environment_value(scene.environment_map->table(), d).radiance;
     return scene.lights[static_cast<std::size_t>(scene.environment_light)].radiance.constant;
 }
 
@@ -58,7 +58,7 @@ template <EffectSet kEffects>
 
 template <EffectSet kEffects>
 [[nodiscard]] float environment_pdf(const Scene& scene, Vec3f d) noexcept {
-    return scene.environment_map ? scene.environment_map->pdf(d) : 0.25f * kInvPi;
+    return scene.environment_map ? environment_value(scene.environment_map->table(), d).pdf_w : 0.25f * kInvPi;
 }
 
 namespace detail {
@@ -79,6 +79,37 @@ template <EffectSet kEffects>
     return out;
 }
 
+/// A spot or a projector as seen from p: a point whose intensity depends on the direction.
+template <EffectSet kEffects>
+[[nodiscard]] LightSample from_beam(const Scene& scene, const Light& light, Vec3f p) noexcept {
+    const Beam& beam = scene.beams[light.geometry];
+    const Vec3f d = light.corner - p;
+    const float d2 = dot(d, d);
+    if (!(d2 > 0.0f)) return {};
+    const float distance = std::sqrt(d2);
+    const Vec3f wi = d * (1.0f / distance);
+    const Vec3f own{-dot(beam.right, wi), -dot(beam.up, wi), -dot(beam.forward, wi)};
+    float factor = 1.0f / d2;
+    const float x = own.x / (own.z * beam.half_width), y = own.y / (own.z * beam.half_height);
+    Vec2f uv{0.5f + 0.5f * x, 0.5f + 0.5f * y};
+    if (light.kind == LightKind::spot) {
+        const float cosine = own.z / std::sqrt(dot(own, own));
+        if (!(cosine > beam.cos_cutoff)) return {};
+        if (cosine < beam.cos_beam) {
+            const float sine2 = 1.0f - cosine * cosine;
+            const float falloff = (beam.cutoff - atan2_poly(std::sqrt(sine2 > 0.0f ? sine2 : 0.0f), cosine)) * beam.inverse_transition;
+            if (!(falloff > 0.0f)) return {};
+            factor *= falloff < 1.0f ? falloff : 1.0f;
+        }
+    } else {
+        // The picture as a camera sees it: u counts to the right, v down. 1/cos^3 makes a plane before it evenly lit.
+        if (!(own.z > 0.0f && x >= -1.0f && x <= 1.0f && y >= -1.0f && y <= 1.0f)) return {};
+        uv = {0.5f - 0.5f * x, 0.5f - 0.5f * y};
+        factor /= own.z * own.z * own.z;
+    }
+    return {wi, texture_value<kEffects>(scene, light.radiance, uv) * light.edge_u * factor, 1.0f, true, false, light.corner};
+}
+
 }  // namespace detail
 
 /// Draws a direction toward a light as seen from p.
@@ -92,15 +123,21 @@ template <EffectSet kEffects>
             if (!(d2 > 0.0f)) return {};
             return {d * (1.0f / std::sqrt(d2)), light.radiance.constant / d2, 1.0f, true, false, light.corner};
         }
+    if constexpr (kEffects.has(Effect::point_light)) {
+        if (light.kind == LightKind::directional) return {light.corner, light.radiance.constant, 1.0f, true, true, light.corner};
+        if (light.kind == LightKind::spot || light.kind == LightKind::projector) return detail::from_beam<kEffects>(scene, light, p);
+    }
     if constexpr (kEffects.has(Effect::environment))
         if (light.kind == LightKind::environment) {
             if (!scene.environment_map) {
                 const Vec3f d = square_to_sphere(u);
                 return {d, light.radiance.constant, 0.25f * kInvPi, false, true, d};
             }
-            const EnvironmentMap::Sample e = scene.environment_map->sample(u);
-            if (!(e.pdf_w > 0.0f)) return {};
-            return {e.d, scene.environment_map->radiance(e.d), e.pdf_w, false, true, e.d};
+            if (scene.environment_map->is_black()) return {};
+            const Vec3f d = scene.environment_map->sample(u);
+            const auto value = environment_value(scene.environment_map->table(), d);
+            if (!(value.pdf_w > 0.0f)) return {};
+            return {d, value.radiance, value.pdf_w, false, true, d};
         }
     if constexpr (kEffects.has(Effect::sphere_light))
         if (light.kind == LightKind::sphere) {
@@ -156,6 +193,11 @@ template <EffectSet kEffects>
             if (light.kind == LightKind::disk) {
                 const Vec2f q = square_to_disk(u);
                 return detail::toward<kEffects>(scene, light, disk_surface<kEffects>(scene, light.geometry, q.x, q.y), p, 0.0f);
+            }
+        if constexpr (kEffects.has(Effect::analytic_shape))
+            if (light.kind == LightKind::cylinder) {
+                const auto [sine, cosine] = sincos_turns(u.x);
+                return detail::toward<kEffects>(scene, light, cylinder_surface<kEffects>(scene, light.geometry, cosine, sine, u.y), p, 0.0f);
             }
     }
     return {};

@@ -66,8 +66,13 @@ struct LightTree {
     std::vector<std::uint64_t> trails;
     Vec3f origin{0.0f};       ///< middle of all lights
     float scale = 1.0f;       ///< 1 / radius of all lights
-    std::uint32_t environment = 0;
-    float environment_share = 0.0f;  ///< probability of the environment beside the tree; 0: there is none
+    /// Lights at infinity, which have no place in a tree, and their probabilities among themselves.
+    struct Distant {
+        std::uint32_t light;
+        float probability;
+    };
+    std::vector<Distant> distant;
+    float distant_share = 0.0f;  ///< probability of all of them; 0: there is none
 
     /// True if lights are not chosen by a tree.
     [[nodiscard]] bool empty() const noexcept { return trails.empty(); }
@@ -76,7 +81,7 @@ struct LightTree {
     /// @param p  point to be lit
     /// @param n  unit normal on the side that reflects; what lies wholly below its horizon is not chosen
     /// @return   probability 0 if no light can reach p, and if the way down ends where both children turn out unable to
-    /// @note     O(log n); nondecreasing in u: it walks through the leaves in their order, the environment first
+    /// @note     O(log n); nondecreasing in u: it walks through the leaves in their order, lights at infinity first
     [[nodiscard]] LightChoice choose(Vec3f p, Vec3f n, float u) const noexcept;
 
     /// @return  the probability with which choose(p, n, u) takes the light (and the triangle, of a mesh): the same bits

@@ -35,7 +35,14 @@ struct MaterialSides {
     bool anisotropic = false;  ///< either side
 };
 
-enum class GeometryKind : std::uint8_t { mesh, sphere, disk };
+enum class GeometryKind : std::uint8_t { mesh, sphere, disk, cylinder };
+
+/// Where the values of a texture over mesh attributes lie.
+struct AttributeSlot {
+    std::int32_t index = -1;  ///< in Scene::attributes
+    bool per_face = false;
+    float scale = 1.0f;
+};
 
 /// One per Embree geometry.
 struct GeometryRecord {
@@ -47,13 +54,22 @@ struct GeometryRecord {
     std::int32_t light = -1;   ///< index into Scene::lights
 };
 
-enum class LightKind : std::int32_t { mesh, parallelogram, sphere, disk, point, environment };
+enum class LightKind : std::int32_t { mesh, parallelogram, sphere, disk, point, environment, cylinder, spot, projector, directional };
+
+/// What a spot or a projector is besides a position.
+struct Beam {
+    Vec3f right, up, forward;  ///< rows of world to light: their dot products with a direction are its own x, y, z
+    Vec3f axis;                ///< unit, world: where it shines
+    float half_width = 1.0f, half_height = 1.0f;  ///< of the picture at distance 1
+    float cutoff = 0.0f, cos_cutoff = 1.0f, cos_beam = 1.0f, inverse_transition = 0.0f;  ///< of a spot; radians
+    bool pictured = false;  ///< the spot has a texture
+};
 
 struct Light {
     LightKind kind = LightKind::point;
-    std::uint32_t geometry = 0;    ///< of surfaces
+    std::uint32_t geometry = 0;    ///< of surfaces; of spots and projectors, the index in Scene::beams
     TextureRef radiance;           ///< or intensity, or constant environment
-    Vec3f corner, edge_u, edge_v;  ///< parallelogram; `corner` is also the position of a point light
+    Vec3f corner, edge_u, edge_v;  ///< parallelogram; `corner` is also the position of a point, spot or projector, or the unit vector to a directional light
     float area = 0.0f;             ///< m^2
     DiscreteDistribution triangles;  ///< of a mesh, by area
 
@@ -81,9 +97,13 @@ struct Scene {
     std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices into positions, normals and uvs alike
     std::vector<AnalyticSphere> spheres;
     std::vector<AnalyticDisk> disks;
+    std::vector<AnalyticCylinder> cylinders;
+    std::vector<std::vector<Vec3f>> attributes;  ///< by AttributeSlot: by vertex as positions are, or by triangle
+    std::vector<AttributeSlot> attribute_slots;  ///< by texture; -1 for other textures
     Accelerator accelerator;
 
     std::vector<Light> lights;
+    std::vector<Beam> beams;
     DiscreteDistribution light_choice;  ///< by power
     LightTree light_tree;               ///< instead, where there are many; otherwise empty
     std::int32_t environment_light = -1;

@@ -11,7 +11,7 @@ struct Surface {
     Vec3f p_error;       ///< bound of the absolute error of each coordinate
     Vec3f ng;            ///< geometric normal, unit, on the side that the shape calls front
     Vec3f n;             ///< shading normal: interpolated where the mesh has normals
-    Vec2f uv;            ///< only where an effect looks at it
+    SurfaceUv uv;        ///< only where an effect looks at it
     Vec3f dpdu{0.0f};    ///< direction in which u grows, up to its length; only for anisotropic materials, and zero without UVs
     std::uint32_t geometry = 0, primitive = 0;
 };
@@ -68,9 +68,13 @@ template <EffectSet kEffects>
         s.uv = b;
         if (g.has_uvs) {
             const Vec2f uv0 = scene.uvs[index[0]], uv1 = scene.uvs[index[1]], uv2 = scene.uvs[index[2]];
-            s.uv = {uv0.x * point.b0 + uv1.x * b.x + uv2.x * b.y, uv0.y * point.b0 + uv1.y * b.x + uv2.y * b.y};
+            s.uv = Vec2f{uv0.x * point.b0 + uv1.x * b.x + uv2.x * b.y, uv0.y * point.b0 + uv1.y * b.x + uv2.y * b.y};
             if constexpr (kEffects.has(Effect::anisotropic)) s.dpdu = direction_of_u(v0, v1, v2, uv0, uv1, uv2);
         }
+    }
+    if constexpr (kEffects.has(Effect::mesh_attribute)) {
+        s.uv.triangle = triangle;
+        s.uv.barycentrics = b;
     }
     return s;
 }
@@ -107,9 +111,29 @@ template <EffectSet kEffects>
         float phi = atan2_poly(fy, fx);
         if (phi < 0.0f) phi += 2.0f * kPi;
         const float r = std::sqrt(fx * fx + fy * fy);
-        s.uv = {r, phi * (0.5f * kInvPi)};
+        s.uv = Vec2f{r, phi * (0.5f * kInvPi)};
         s.dpdu = r > 0.0f ? to_float(disk.s) * fx + to_float(disk.t) * fy : to_float(disk.s);
     }
+    return s;
+}
+
+/// A point of a cylinder in its own coordinates: direction from the axis (a unit vector), way along it in [0, 1].
+template <EffectSet kEffects>
+[[nodiscard]] Surface cylinder_surface(const Scene& scene, std::uint32_t geometry, double cosine, double sine, double along) noexcept {
+    const GeometryRecord& g = scene.geometries[geometry];
+    const AnalyticCylinder& c = scene.cylinders[g.first];
+    const Vec3d out = c.s * cosine + c.t * sine;
+    Surface s;
+    s.geometry = geometry;
+    s.p = to_float(c.base + c.axis * along + out * c.radius);
+    s.p_error = abs(s.p) * error_gamma(2);
+    s.ng = s.n = to_float(g.flip ? -out : out);
+    if constexpr (kEffects.has(Effect::texture)) {
+        float phi = atan2_poly(static_cast<float>(sine), static_cast<float>(cosine));
+        if (phi < 0.0f) phi += 2.0f * kPi;
+        s.uv = Vec2f{phi * (0.5f * kInvPi), static_cast<float>(along)};
+    }
+    if constexpr (kEffects.has(Effect::anisotropic)) s.dpdu = to_float(c.t * cosine - c.s * sine);
     return s;
 }
 
@@ -127,6 +151,10 @@ template <EffectSet kEffects>
             const DiskHit d = intersect(scene.disks[g.first], ray);
             return disk_surface<kEffects>(scene, hit.geometry, d.x, d.y);
         }
+        if (g.kind == GeometryKind::cylinder) {
+            const CylinderHit c = intersect(scene.cylinders[g.first], ray);
+            return cylinder_surface<kEffects>(scene, hit.geometry, c.cosine, c.sine, c.along);
+        }
     }
     const std::uint32_t triangle = g.first + hit.primitive;
     const auto& index = scene.triangles[triangle];
@@ -140,17 +168,35 @@ template <EffectSet kEffects>
     return s;
 }
 
+namespace detail {
+
+/// Of a face, or interpolated between the vertices.
+[[nodiscard]] inline Vec3f attribute_value(const Scene& scene, const AttributeSlot& slot, const SurfaceUv& at) noexcept {
+    const std::vector<Vec3f>& values = scene.attributes[static_cast<std::size_t>(slot.index)];
+    if (slot.per_face) return values[at.triangle] * slot.scale;
+    const auto& index = scene.triangles[at.triangle];
+    const Vec2f b = at.barycentrics;
+    return (values[index[0]] * (1.0f - b.x - b.y) + values[index[1]] * b.x + values[index[2]] * b.y) * slot.scale;
+}
+
+}  // namespace detail
+
 /// The value of a texture at a surface.
 template <EffectSet kEffects>
-[[nodiscard]] Vec3f texture_value(const Scene& scene, const TextureRef& ref, Vec2f uv) noexcept {
+[[nodiscard]] Vec3f texture_value(const Scene& scene, const TextureRef& ref, const SurfaceUv& uv) noexcept {
     if constexpr (kEffects.has(Effect::texture))
-        if (ref.index >= 0) return lookup(scene.textures[static_cast<std::size_t>(ref.index)], uv);
+        if (ref.index >= 0) {
+            const auto index = static_cast<std::size_t>(ref.index);
+            if constexpr (kEffects.has(Effect::mesh_attribute))
+                if (const AttributeSlot& slot = scene.attribute_slots[index]; slot.index >= 0) return detail::attribute_value(scene, slot, uv);
+            return lookup(scene.textures[index], {uv.x, uv.y});
+        }
     return ref.constant;
 }
 
 /// One side of a material with its textures looked up. Of layered sides the kind alone: layered.h computes them.
 template <EffectSet kEffects>
-[[nodiscard]] Bsdf bsdf_of(const Scene& scene, const MaterialSide& m, Vec2f uv) noexcept {
+[[nodiscard]] Bsdf bsdf_of(const Scene& scene, const MaterialSide& m, const SurfaceUv& uv) noexcept {
     Bsdf b;
     b.kind = m.kind;
     b.reflectance = texture_value<kEffects>(scene, m.reflectance, uv);

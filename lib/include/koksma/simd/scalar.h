@@ -53,6 +53,8 @@ constexpr void assign(bool m, T& dst, const T& src) noexcept {
 [[nodiscard]] constexpr float to_real(std::int32_t x) noexcept { return static_cast<float>(x); }
 [[nodiscard]] constexpr std::int32_t bits_of(float x) noexcept { return std::bit_cast<std::int32_t>(x); }
 [[nodiscard]] constexpr float real_of(std::int32_t bits) noexcept { return std::bit_cast<float>(bits); }
+/// base[index]
+[[nodiscard]] constexpr float gather(const float* base, std::int32_t index) noexcept { return base[index]; }
 /// x << n and arithmetic x >> n.
 template <int n>
 [[nodiscard]] constexpr std::int32_t shift_left(std::int32_t x) noexcept {

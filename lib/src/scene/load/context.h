@@ -1,6 +1,7 @@
 #pragma once
 // What the readers of plugins share while one scene is loaded.
 
+#include "files.h"
 #include "properties.h"
 
 #include <koksma/scene/description.h>
@@ -27,7 +28,7 @@ struct MeshFile {
 struct Context {
     SceneDescription& scene;
     IdTable ids;
-    std::filesystem::path scene_directory;
+    SearchPath search;
 
     std::map<const Element*, std::uint32_t> materials;  ///< BSDF elements already in scene.materials
     std::optional<std::uint32_t> black_material;

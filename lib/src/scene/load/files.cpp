@@ -2,6 +2,7 @@
 
 #include "fail.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -30,19 +31,23 @@ std::string read_file(const std::filesystem::path& file) {
     return bytes;
 }
 
-std::filesystem::path resolve(const std::string& name, const std::filesystem::path& scene_directory, const SourceLocation& where) {
+std::filesystem::path resolve(const std::string& name, const SearchPath& search, const SourceLocation& where) {
     if (name.empty()) fail(where, "the file name is empty");
     const std::filesystem::path wanted(name);
+    std::error_code ignored;
     if (wanted.is_absolute()) {
-        if (std::filesystem::exists(wanted)) return wanted;
+        if (std::filesystem::exists(wanted, ignored)) return wanted;
         fail(where, "there is no file '{}'", name);
     }
-    const std::filesystem::path beside = std::filesystem::path(where.file).parent_path() / wanted;
-    if (std::filesystem::exists(beside)) return beside;
-    const std::filesystem::path from_scene = scene_directory / wanted;
-    if (std::filesystem::exists(from_scene)) return from_scene;
-    if (beside == from_scene) fail(where, "there is no file '{}'; tried {}", name, beside.string());
-    fail(where, "there is no file '{}'; tried {} and {}", name, beside.string(), from_scene.string());
+    SearchPath folders = search;
+    folders.insert(folders.empty() ? folders.end() : folders.end() - 1, std::filesystem::path(where.file).parent_path());
+    std::vector<std::string> tried;
+    for (const auto& folder : folders) {
+        std::filesystem::path file = folder / wanted;
+        if (std::filesystem::exists(file, ignored)) return file;
+        if (std::find(tried.begin(), tried.end(), file.string()) == tried.end()) tried.push_back(file.string());
+    }
+    fail(where, "there is no file '{}'; tried {}", name, list_of(tried));
 }
 
 }  // namespace koksma::loader

@@ -1,7 +1,9 @@
-// <film>: its size, its crop, and the box filter that must be asked for.
+// <film>: its size, its crop and its reconstruction filter.
 
 #include "fail.h"
 #include "sensor.h"
+
+#include <koksma/scene/film_filter.h>
 
 namespace koksma::loader {
 namespace {
@@ -12,11 +14,28 @@ std::int32_t read_side(Properties& p, const std::string& name, std::int64_t defa
     return static_cast<std::int32_t>(p.integer(name, default_value, lowest, kMaxSide));
 }
 
-void check_filter(Properties& p, const Context& context) {
-    const Element* filter = p.object("rfilter");
-    if (!filter)
-        fail(p.where(), "the film has no <rfilter>, which means a gaussian to Mitsuba and is not supported; add <rfilter type=\"box\"/>");
-    Properties(*filter, context.ids, {"box"}).finish();
+/// Without one a gaussian, as in Mitsuba. Filters with negative lobes have no samples of weight one.
+ReconstructionFilter read_filter(Properties& p, const Context& context) {
+    using Kind = ReconstructionFilter::Kind;
+    ReconstructionFilter filter;
+    filter.kind = Kind::gaussian;
+    filter.beyond_film = p.boolean("sample_border", false);
+    const Element* element = p.object("rfilter");
+    if (!element) return filter;
+    Properties f(*element, context.ids, {"box", "tent", "gaussian"});
+    const auto positive = [&](const std::string& name, double default_value, double largest) {
+        const double v = f.number(name, default_value);
+        if (!(v > 0.0 && v <= largest)) fail(f.where(name), "'{}' is {}; it must be in (0, {}]", name, v, largest);
+        return v;
+    };
+    if (f.type() == "gaussian") {
+        filter.stddev = positive("stddev", 0.5, kLargestFilterRadius / 4.0);
+    } else {
+        filter.kind = f.type() == "tent" ? Kind::tent : Kind::box;
+        filter.radius = positive("radius", filter.kind == Kind::tent ? 1.0 : 0.5, kLargestFilterRadius);
+    }
+    f.finish();
+    return filter;
 }
 
 void read_crop(Properties& p, FilmSettings& film) {
@@ -44,8 +63,8 @@ void read_film(const Element& element, Context& context) {
     (void)p.choice("pixel_format", "rgb", {"rgb", "rgba"});
     (void)p.choice("component_format", "float16", {"float16", "float32", "uint32"});
     (void)p.choice("file_format", "openexr", {"openexr", "exr", "rgbe", "pfm"});
-    if (p.boolean("sample_border", false)) fail(p.where("sample_border"), "'sample_border' is not supported");
-    check_filter(p, context);
+    (void)p.boolean("compensate", false);  // our sums are compensated anyway
+    film.filter = read_filter(p, context);
     p.finish();
 }
 

@@ -31,7 +31,7 @@ const Element* only(const XmlDocument& document, std::string_view tag) {
 }
 
 void check_tags(const XmlDocument& document) {
-    const std::vector<std::string> tags{"default", "include", "alias", "integrator", "sensor", "bsdf", "texture", "shape", "emitter"};
+    const std::vector<std::string> tags{"default", "include", "path", "alias", "integrator", "sensor", "bsdf", "texture", "shape", "emitter"};
     for (const Element& e : document.elements)
         if (std::find(tags.begin(), tags.end(), e.tag) == tags.end())
             fail(e.where, "<{}> is not supported in <scene>; {}supported: {}", e.tag, did_you_mean(e.tag, tags), list_of(tags));
@@ -58,7 +58,7 @@ SceneDescription load_scene(const std::filesystem::path& file, const SceneParame
     scene.materials.emplace_back();
     read_header_comment(document.comment, scene);
 
-    Context context{scene, {}, file.parent_path(), {}, {}, {}, {}, {}};
+    Context context{scene, {}, document.search, {}, {}, {}, {}, {}};
     check_tags(document);
     collect_ids(document.elements, context.ids);
     if (const Element* integrator = only(document, "integrator")) read_integrator(*integrator, context);

@@ -17,6 +17,10 @@ public:
         h_ = (h_ ^ (h_ >> 27)) * 0x94D049BB133111EBu;
         h_ ^= h_ >> 31;
     }
+    void text(const std::string& s) {
+        word(s.size());
+        for (const char c : s) word(static_cast<unsigned char>(c));
+    }
     void number(double v) { word(std::bit_cast<std::uint64_t>(v + 0.0)); }
     void floats(float a, float b) {
         word(std::uint64_t{std::bit_cast<std::uint32_t>(a + 0.0f)} << 32 | std::bit_cast<std::uint32_t>(b + 0.0f));
@@ -45,6 +49,9 @@ public:
         for (const PointLight& l : scene_.point_lights) h_.vec(l.position), h_.vec(l.intensity);
         h_.word(scene_.environment ? 1 + scene_.environment->index() : 0);
         if (scene_.environment) std::visit([this](const auto& e) { add(e); }, *scene_.environment);
+        // What came later is in the hash only where it is used, so that the hash of an older scene stays.
+        for (const DeltaLight& l : scene_.delta_lights) h_.word(0x64656C7461u + l.index()), std::visit([this](const auto& e) { add(e); }, l);
+        if (!scene_.film.filter.is_pixel()) add(scene_.film.filter);
         add(scene_.camera);
         h_.word(static_cast<std::uint64_t>(scene_.film.width)), h_.word(static_cast<std::uint64_t>(scene_.film.height));
         h_.word(static_cast<std::uint64_t>(std::int64_t{scene_.integrator.max_depth}));
@@ -66,6 +73,7 @@ private:
     void add(const DiskShape&) {}
     void add(const CubeShape&) {}
     void add(const SphereShape& s) { h_.vec(s.center), h_.number(s.radius); }
+    void add(const CylinderShape& c) { h_.vec(c.p0), h_.vec(c.p1), h_.number(c.radius); }
     void add(const MeshShape& s) {
         h_.word(once(s.data.get(), [&](Hasher& h) { add_mesh(h, *s.data); }));
     }
@@ -76,6 +84,10 @@ private:
         for (const auto& n : m.normals) h.vec(n);
         for (const auto& uv : m.uvs) h.floats(uv.x, uv.y);
         for (const auto& t : m.triangles) h.word(std::uint64_t{t[0]} << 32 | t[1]), h.word(t[2]);
+        for (const MeshAttribute& a : m.attributes) {
+            h.text(a.name), h.word(a.values.size());
+            for (const Rgb& v : a.values) h.vec(v);
+        }
     }
 
     void add(const Image& image) {
@@ -95,6 +107,8 @@ private:
         h_.matrix<3>(t.to_uv);
     }
     void add(const CheckerboardTexture& t) { h_.vec(t.color0), h_.vec(t.color1), h_.matrix<3>(t.to_uv); }
+
+    void add(const MeshAttributeTexture& t) { h_.text(t.name), h_.floats(t.scale, 0.0f); }
 
     void add(const Material& m) {
         h_.word(m.two_sided);
@@ -145,6 +159,18 @@ private:
         for (const Material& m : nested) add(m);
     }
 
+    void add(const SpotLight& s) {
+        h_.matrix<4>(s.to_world), h_.vec(s.intensity), h_.number(s.cutoff_degrees), h_.number(s.beam_degrees);
+        h_.word(s.texture.has_value());
+        if (s.texture) add(*s.texture);
+    }
+    void add(const DirectionalLight& d) { h_.vec(d.direction), h_.vec(d.irradiance); }
+    void add(const ProjectorLight& p) {
+        h_.matrix<4>(p.to_world), add(p.irradiance), h_.number(p.scale), h_.number(p.fov_x_degrees), h_.number(p.aspect);
+    }
+    void add(const ReconstructionFilter& f) {
+        h_.word(1 + static_cast<std::uint64_t>(f.kind)), h_.number(f.radius), h_.number(f.stddev), h_.word(f.beyond_film);
+    }
     void add(const ConstantEnvironment& e) { h_.vec(e.radiance); }
     void add(const MapEnvironment& e) {
         add(*e.image);
@@ -155,6 +181,7 @@ private:
         h_.number(c.fov_x_degrees), h_.number(c.near_clip), h_.number(c.far_clip);
         h_.number(c.aperture_radius);
         h_.number(c.aperture_radius > 0.0 ? c.focus_distance : 0.0);  // a pinhole has no focus
+        if (c.orthographic) h_.word(0x6F7274686Fu);
         h_.number(c.principal_point_offset.x), h_.number(c.principal_point_offset.y);
     }
 

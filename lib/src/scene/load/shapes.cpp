@@ -9,20 +9,26 @@
 
 #include <koksma/scene/load.h>
 
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace koksma::loader {
 namespace {
 
-MeshFile& mesh_file(const std::filesystem::path& file, bool obj, const SourceLocation& where, Context& context) {
-    MeshFile& mesh = context.meshes[file.string()];
+/// @param index  of a mesh in a serialized file
+MeshFile& mesh_file(const std::filesystem::path& file, const std::string& type, std::int64_t index, const SourceLocation& where, Context& context) {
+    MeshFile& mesh = context.meshes[file.string() + '@' + std::to_string(index)];
     if (mesh.as_written) return mesh;
     try {
-        mesh.as_written = std::make_shared<const MeshData>(obj ? load_obj(file) : load_ply(file));
+        mesh.as_written = std::make_shared<const MeshData>(type == "obj"   ? load_obj(file)
+                                                           : type == "ply" ? load_ply(file)
+                                                                           : load_serialized(file, static_cast<std::uint32_t>(index)));
     } catch (const Error& e) {
         fail(where, "{}", e.what());
     }
@@ -66,10 +72,11 @@ std::shared_ptr<const MeshData> with_normals(MeshFile& file, bool flip, const gl
 
 MeshShape read_mesh(Properties& p, const glm::dmat4& to_world, bool face_normals, Context& context) {
     const bool obj = p.type() == "obj";
-    const auto path = resolve(p.required_text("filename"), context.scene_directory, p.where("filename"));
-    MeshFile& file = mesh_file(path, obj, p.where("filename"), context);
+    const std::int64_t index = p.type() == "serialized" ? p.integer("shape_index", 0, 0, std::numeric_limits<std::int32_t>::max()) : 0;
+    const auto path = resolve(p.required_text("filename"), context.search, p.where("filename"));
+    MeshFile& file = mesh_file(path, p.type(), index, p.where("filename"), context);
     const bool flip = p.boolean("flip_tex_coords", obj);  // OBJ counts v from the bottom, Mitsuba's images from the top
-    return {face_normals ? without_normals(file, flip) : with_normals(file, flip, to_world)};
+    return {face_normals || file.as_written->faceted ? without_normals(file, flip) : with_normals(file, flip, to_world)};
 }
 
 SphereShape read_sphere(Properties& p, const glm::dmat4& to_world) {
@@ -83,11 +90,25 @@ SphereShape read_sphere(Properties& p, const glm::dmat4& to_world) {
     return s;
 }
 
+CylinderShape read_cylinder(Properties& p, const glm::dmat4& to_world) {
+    CylinderShape c;
+    c.p0 = p.point("p0", c.p0);
+    c.p1 = p.point("p1", c.p1);
+    c.radius = p.number("radius", c.radius);
+    if (!(c.radius > 0.0)) fail(p.where("radius"), "'radius' is {}; it must be positive", c.radius);
+    const glm::dvec3 axis = c.p1 - c.p0;
+    if (!(glm::dot(axis, axis) > 0.0)) fail(p.where("p1"), "a cylinder needs a length: 'p0' and 'p1' are the same point");
+    if (!is_similarity(to_world, 1e-4))
+        fail(p.where("to_world"), "'to_world' of a cylinder must scale all axes alike; use a mesh for a stretched one");
+    return c;
+}
+
 Geometry read_geometry(Properties& p, const glm::dmat4& to_world, bool face_normals, Context& context) {
     if (p.type() == "rectangle") return RectangleShape{};
     if (p.type() == "disk") return DiskShape{};
     if (p.type() == "cube") return CubeShape{};
     if (p.type() == "sphere") return read_sphere(p, to_world);
+    if (p.type() == "cylinder") return read_cylinder(p, to_world);
     return read_mesh(p, to_world, face_normals, context);
 }
 
@@ -96,6 +117,7 @@ void bounds(const Geometry& geometry, glm::dvec3& low, glm::dvec3& high) {
     low = glm::dvec3(-1.0), high = glm::dvec3(1.0);
     if (const auto* sphere = std::get_if<SphereShape>(&geometry))
         low = sphere->center - sphere->radius, high = sphere->center + sphere->radius;
+    if (const auto* c = std::get_if<CylinderShape>(&geometry)) low = glm::min(c->p0, c->p1) - c->radius, high = glm::max(c->p0, c->p1) + c->radius;
     if (const auto* mesh = std::get_if<MeshShape>(&geometry)) {
         low = high = glm::dvec3(mesh->data->positions.front());
         for (const glm::vec3& v : mesh->data->positions)
@@ -120,13 +142,13 @@ void check_placement(const Properties& p, const Shape& shape) {
 }  // namespace
 
 void read_shape(const Element& element, Context& context) {
-    Properties p(element, context.ids, {"obj", "ply", "rectangle", "disk", "cube", "sphere"});
+    Properties p(element, context.ids, {"obj", "ply", "serialized", "rectangle", "disk", "cube", "sphere", "cylinder"});
     Shape shape;
     shape.id = p.id();
     shape.where = p.where();
     shape.to_world = p.transform("to_world");
     shape.flip_normals = p.boolean("flip_normals", false);
-    if (p.type() != "sphere" && p.type() != "disk") shape.face_normals = p.boolean("face_normals", false);
+    if (p.type() != "sphere" && p.type() != "disk" && p.type() != "cylinder") shape.face_normals = p.boolean("face_normals", false);
     shape.geometry = read_geometry(p, shape.to_world, shape.face_normals, context);
     const Element* bsdf = p.object("bsdf");
     const Element* emitter = p.object("emitter");

@@ -13,7 +13,7 @@ enum class ColorUse {
     any           ///< finite; checked later against the use of the texture around it
 };
 
-/// @throws Error for wavelength tables, malformed numbers and values out of range
+/// @throws Error for malformed numbers and values out of range
 [[nodiscard]] Rgb parse_color(const Element& element, ColorUse use);
 
 /// @throws Error at `where` if the value is out of the range of `use`; `what` names it

@@ -47,10 +47,21 @@ Texture parse_checkerboard(Properties& p, ColorUse use) {
     return t;
 }
 
+Texture parse_mesh_attribute(Properties& p) {
+    MeshAttributeTexture t;
+    t.name = p.required_text("name");
+    if (!(t.name.starts_with("vertex_") || t.name.starts_with("face_")))
+        fail(p.where("name"), "'{}' is not an attribute of meshes; its name begins with vertex_ or face_", t.name);
+    t.scale = static_cast<float>(p.number("scale", 1.0));
+    if (!(t.scale >= 0.0f)) fail(p.where("scale"), "'scale' is {}; it must not be negative", t.scale);
+    p.finish();
+    return t;
+}
+
 }  // namespace
 
 std::shared_ptr<const Image> shared_image(const std::string& name, bool raw, const SourceLocation& where, Context& context) {
-    const auto file = resolve(name, context.scene_directory, where);
+    const auto file = resolve(name, context.search, where);
     auto& image = context.images[{file.string(), raw}];
     if (image) return image;
     try {
@@ -61,7 +72,11 @@ std::shared_ptr<const Image> shared_image(const std::string& name, bool raw, con
 }
 
 Texture parse_texture(const Element& element, ColorUse use, Context& context) {
-    Properties p(element, context.ids, {"bitmap", "checkerboard"});
+    Properties p(element, context.ids, {"bitmap", "checkerboard", "mesh_attribute"});
+    if (p.type() == "mesh_attribute") {
+        if (use == ColorUse::emission) fail(p.where(), "a mesh_attribute is not supported as light");
+        return parse_mesh_attribute(p);
+    }
     return p.type() == "bitmap" ? parse_bitmap(p, use, context) : parse_checkerboard(p, use);
 }
 

@@ -38,7 +38,7 @@ private:
 class Reader {
 public:
     Reader(const SceneParameters& overrides, std::filesystem::path scene_directory)
-        : overrides_(overrides), values_(overrides.begin(), overrides.end()), scene_directory_(std::move(scene_directory)) {}
+        : overrides_(overrides), values_(overrides.begin(), overrides.end()), search_{std::move(scene_directory)} {}
 
     XmlDocument read_main(const std::filesystem::path& file) {
         XmlDocument document;
@@ -47,6 +47,7 @@ public:
             if (!used_.contains(name))
                 fail({file.string()}, "parameter '{}' was given but is not used; {}the file has: {}", name, did_you_mean(name, names()),
                      list_of(names()));
+        document.search = std::move(search_);
         return document;
     }
 
@@ -72,8 +73,9 @@ private:
 
     static void check_version(const Element& scene) {
         const std::string& version = scene.required("version");
-        if (!version.starts_with("3.") || version.find_first_not_of("0123456789.") != std::string::npos)
-            fail(scene.where, "scene version \"{}\" is not supported; supported: 3.x.y (Mitsuba 3)", version);
+        // Mitsuba 3 reads files of version 2 as they are.
+        if (!(version.starts_with("3.") || version.starts_with("2.")) || version.find_first_not_of("0123456789.") != std::string::npos)
+            fail(scene.where, "scene version \"{}\" is not supported; supported: 3.x.y and 2.x.y (Mitsuba 3)", version);
     }
 
     static std::string first_comment(const pugi::xml_document& xml, const pugi::xml_node& root) {
@@ -98,6 +100,8 @@ private:
                 define(shallow(node, where));
             else if (tag == "include")
                 include(shallow(node, where), depth, out);
+            else if (tag == "path")
+                add_path(shallow(node, where));
             else
                 out.push_back(deep(node, lines, 1));
         }
@@ -126,7 +130,14 @@ private:
         element.allow_no_children();
         if (depth >= kMaxIncludeDepth)
             fail(element.where, "includes are nested more than {} deep; does a file include itself?", kMaxIncludeDepth);
-        read(resolve(element.required("filename"), scene_directory_, element.where), depth + 1, out, nullptr);
+        read(resolve(element.required("filename"), search_, element.where), depth + 1, out, nullptr);
+    }
+
+    /// A folder to look for files in, before all others.
+    void add_path(const Element& element) {
+        element.allow_attributes({"value"});
+        element.allow_no_children();
+        search_.insert(search_.begin(), resolve(element.required("value"), search_, element.where));
     }
 
     Element shallow(const pugi::xml_node& node, const SourceLocation& where) {
@@ -139,7 +150,7 @@ private:
         const SourceLocation where = lines.at(node.offset_debug() - 1);
         if (depth > kMaxElementDepth) fail(where, "elements are nested more than {} deep", kMaxElementDepth);
         Element element = shallow(node, where);
-        if (element.tag == "default" || element.tag == "include") fail(where, "<{}> is only supported directly in <scene>", element.tag);
+        if (element.tag == "default" || element.tag == "include" || element.tag == "path") fail(where, "<{}> is only supported directly in <scene>", element.tag);
         for (const pugi::xml_node& child : node.children())
             if (is_element(child, where)) element.children.push_back(deep(child, lines, depth + 1));
         return element;
@@ -178,7 +189,7 @@ private:
     const SceneParameters& overrides_;
     std::map<std::string, std::string> values_;
     std::set<std::string> used_;
-    std::filesystem::path scene_directory_;
+    SearchPath search_;
 };
 
 }  // namespace

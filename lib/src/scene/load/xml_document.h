@@ -2,6 +2,7 @@
 // XML files to elements: <default>, $parameters, <include>, line and column.
 
 #include "element.h"
+#include "files.h"
 
 #include <koksma/scene/load.h>
 
@@ -15,6 +16,7 @@ struct XmlDocument {
     std::vector<Element> elements;  ///< children of <scene>, those of included files in the place of the <include>
     SourceLocation where;           ///< of the main <scene>
     std::string comment;            ///< the first comment of the main file
+    SearchPath search;              ///< folders of <path>, and the main file's
 };
 
 /// Reads a scene file and what it includes. `overrides` win over every <default>.

@@ -3,6 +3,7 @@
 // parts (layered_parts.h) of which a kernel knows nothing. A part looks its textures up when it is asked.
 
 #include <koksma/scene/bsdf/bsdf.h>
+#include <koksma/scene/surface_uv.h>
 
 namespace koksma {
 
@@ -12,7 +13,7 @@ struct LayeredParts;
 /// Where a layered material is asked.
 struct LayeredPoint {
     std::uint32_t side = 0;  ///< index into Scene::sides
-    Vec2f uv;
+    SurfaceUv uv;
     Vec3f n{0.0f, 0.0f, 1.0f};  ///< shading normal, with geometry and primitive for what bends it
     std::uint32_t geometry = 0, primitive = 0;
 };

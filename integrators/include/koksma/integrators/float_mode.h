@@ -5,7 +5,7 @@
 #include <xmmintrin.h>
 #endif
 
-namespace koksma::detail {
+namespace koksma {
 
 /// Flush-to-zero and denormals-are-zero while alive: Embree asks for them, and no result may depend on the worker.
 class FlushDenormals {
@@ -23,4 +23,4 @@ private:
     [[maybe_unused]] unsigned saved_ = 0;
 };
 
-}  // namespace koksma::detail
+}  // namespace koksma

@@ -1,0 +1,54 @@
+#pragma once
+// The rows of one sampler on one scene, by number of samples: what every statistic of a summary starts from.
+
+#include "row.h"
+
+#include <nlohmann/json.hpp>
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace koksma {
+
+inline constexpr double kConfidence = 0.95;
+
+/// The replicates of one sampler at one spp.
+struct Point {
+    std::uint64_t spp = 0;
+    std::vector<Errors> all, masked;
+    std::vector<double> mse, relmse, wall, cpu, sampler;
+    std::uint64_t invalid = 0, paths = 0;
+    std::vector<std::string> fills;  ///< each once
+};
+using Curve = std::map<std::uint64_t, Point>;  // by spp
+
+/// @param layout  0: as the plan has it
+[[nodiscard]] Curve curve_of(const std::vector<Row>& rows, const std::string& scene, const std::string& sampler, int layout = 0);
+
+/// One error of all replicates that have it.
+[[nodiscard]] std::vector<double> values_of(const std::vector<Errors>& errors, double Errors::*which);
+
+/// Without a randomisation all replicates are one: keep its error, drop the interval.
+[[nodiscard]] std::vector<double> replicates(const std::vector<double>& values, bool randomized);
+
+/// null where it is not finite.
+[[nodiscard]] nlohmann::ordered_json number(double x);
+
+/// {"value", "lo", "hi"}
+[[nodiscard]] nlohmann::ordered_json interval_json(double value, double lo, double hi);
+
+/// A sampler of a scene, as the statistics that compare several see it.
+struct Contender {
+    std::string sampler;
+    bool randomized = true;
+    Curve curve;
+};
+
+// The parts of a summary; each of one sampler, one scene or all.
+[[nodiscard]] nlohmann::ordered_json metrics_json(const Point& point, bool randomized, const Curve& baseline);
+[[nodiscard]] nlohmann::ordered_json pairs_json(const std::vector<Contender>& contenders);
+/// @param scenes  the contenders of each scene
+[[nodiscard]] nlohmann::ordered_json across_scenes_json(const std::vector<std::vector<Contender>>& scenes, const std::string& baseline);
+
+}  // namespace koksma

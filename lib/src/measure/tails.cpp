@@ -1,0 +1,19 @@
+#include <koksma/measure/tails.h>
+
+#include <algorithm>
+
+namespace koksma {
+
+bool heavy_tailed(const std::vector<std::vector<double>>& points) noexcept {
+    for (const std::vector<double>& p : points) {
+        if (p.size() < 3) continue;
+        const double largest = *std::max_element(p.begin(), p.end());
+        double sum = 0;
+        for (const double v : p) sum += v;
+        const double others = (sum - largest) / static_cast<double>(p.size() - 1);
+        if (others > 0 && largest > kTailRatio * others) return true;
+    }
+    return false;
+}
+
+}  // namespace koksma

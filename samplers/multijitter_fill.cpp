@@ -1,0 +1,67 @@
+#include "multijitter.h"
+
+#include <algorithm>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "multijitter_fill.cpp"
+#include <koksma/simd/each_target.h>
+
+#include "fill_packs.h"
+#include "permutation_packs.h"
+
+KOKSMA_MATHS_BEGIN
+
+/// Vectorised: 1-D slots, and 2-D slots of correlated full grids.
+void fill_multijitter(const MultiJitterSampler& sampler, const PixelKeys& keys, std::uint64_t slot_keys, const MultiJitterGrid& grid, std::uint64_t spp,
+                      bool correlated, std::span<const SampleId> samples, SlotRun run, float* out, std::size_t stride) {
+    const auto n = static_cast<std::uint32_t>(spp);
+    const bool regular = correlated && grid.full() && spp <= kMostStrataOfPacks;
+    const StrataPack strata(n);
+    SetBlock block;
+    PermutationTable order;
+    BlockArray shuffled, columns_of, rows_of;
+    for (std::size_t begin = 0; begin < samples.size(); begin += kBlockSamples, out += kBlockSamples) {
+        const auto part = samples.subspan(begin, std::min(kBlockSamples, samples.size() - begin));
+        block.read_set(part, keys, slot_keys, n);
+        for (const Slot& slot : run) {
+            const std::uint32_t d = slot.dimension;
+            float* x_out = out + (d - run.front().dimension) * stride;
+            float* y_out = x_out + stride;
+            if (slot.arity == 2 && !regular) {
+                fill_points(sampler, part, slot, x_out, stride);
+                continue;
+            }
+            order.set(block, block.slots, d, n);
+            order.images(block, block.index_in_set, shuffled.of);
+            if (slot.arity == 2) {
+                divide(block, shuffled.of, grid.columns, rows_of.of, columns_of.of);
+                order.set(block, block.slots, (std::uint64_t{1} << 32) | d, grid.columns);
+                order.images(block, columns_of.of, columns_of.of);
+                order.set(block, block.slots, (std::uint64_t{4} << 32) | d, grid.rows);
+                order.images(block, rows_of.of, rows_of.of);
+            }
+            for (std::size_t i = 0; i < block.count; i += kPack) {
+                const UInt32 s = UInt32::load(shuffled.of + i);
+                const UInt32 jitter = keyed_hash(block.jitter.pack(i), d);
+                if (slot.arity == 1) {
+                    strata.place(s, jitter).store_first(block.lanes(i), x_out + i);
+                    continue;
+                }
+                const UInt32 x = UInt32::load(columns_of.of + i) * UInt32(grid.rows) + UInt32::load(rows_of.of + i);
+                strata.place(x, jitter).store_first(block.lanes(i), x_out + i);
+                strata.place(s, keyed_hash(block.jitter.pack(i), d + 1)).store_first(block.lanes(i), y_out + i);
+            }
+        }
+    }
+}
+
+KOKSMA_MATHS_END
+
+#if HWY_ONCE
+namespace koksma {
+HWY_EXPORT(fill_multijitter);
+void MultiJitterSampler::fill(std::span<const SampleId> samples, SlotRun run, float* out, std::size_t stride) const noexcept {
+    HWY_DYNAMIC_DISPATCH(fill_multijitter)(*this, keys_, kSlotKeys, grid_, count_, correlated_, samples, run, out, stride);
+}
+}  // namespace koksma
+#endif
