@@ -4,6 +4,7 @@
 #include <koksma/plan/effect.h>
 
 #include <scenes/describe.h>
+#include <scenes/layered_materials.h>
 
 #include <memory>
 #include <utility>
