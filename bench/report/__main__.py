@@ -14,13 +14,14 @@ def main(arguments: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(
         prog="python3 -m report",
         description="Reads DIR/summary.json and the pictures it names, and writes DIR/report.html: "
-        "one file that opens in a browser, offline.")
+        "one file that opens in a browser, offline; and points.csv and gains.tex for a paper.")
     parser.add_argument("dir", metavar="DIR", type=Path, help="results directory, made by `koksma bench`")
     options = parser.parse_args(arguments)
 
     try:
         # Late, so that --help and the message below need only the standard library.
         from .check import ReportError
+        from .export import gains_tex, points_csv
         from .load import load_summary
         from .page import render_page
     except ImportError as error:
@@ -28,7 +29,10 @@ def main(arguments: list[str] | None = None) -> int:
                      "(Debian: apt install python3-matplotlib python3-numpy python3-jinja2)")
     try:
         target = options.dir / "report.html"
-        write_atomically(target, render_page(load_summary(options.dir)))
+        summary = load_summary(options.dir)
+        write_atomically(options.dir / "points.csv", points_csv(summary))
+        write_atomically(options.dir / "gains.tex", gains_tex(summary))
+        write_atomically(target, render_page(summary))
     except ReportError as error:
         return _fail(str(error))
     except OSError as error:

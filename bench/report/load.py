@@ -5,6 +5,7 @@ from pathlib import Path
 
 from . import model
 from .check import Node, ReportError
+from .evidence import load_evidence
 from .pictures import load_picture
 
 SCHEMA = 1
@@ -66,7 +67,7 @@ def _scene(node: Node, directory: Path) -> model.Scene:
         reference=_reference(node.at("reference")),
         picture=load_picture(node.at("picture"), directory),
         reference_crop=load_picture(node.at("reference_crop"), directory),
-        samplers=samplers)
+        samplers=samplers, evidence=load_evidence(node, directory))
 
 
 def _reference(node: Node) -> model.Reference:

@@ -140,6 +140,7 @@ class Scene:
     picture: Picture | None
     reference_crop: Picture | None
     samplers: tuple[SamplerResult, ...]
+    evidence: object = None  # of evidence.py, which is made of these values
 
 
 @dataclass(frozen=True)

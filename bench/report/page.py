@@ -4,6 +4,7 @@ from pathlib import Path
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
+from . import evidence as behind
 from . import formats, tables
 from .counts_layouts import gain_at_counts, layout_spread
 from .figures import error_vs_seconds, error_vs_spp
@@ -35,7 +36,11 @@ def render_page(summary: Summary) -> str:
 def _scene_context(scene: Scene, styles: dict[str, Style], key: str) -> dict:
     crops = [picture for picture in (scene.reference_crop, *(s.crop for s in scene.samplers)) if picture]
     widest = max((picture.width for picture in crops), default=0)
+    evidence = scene.evidence or behind.Evidence((), {}, 0, (), ())
+    apart, alike = behind.told_apart(evidence)
     return {
+        "evidence": evidence, "apart": apart, "alike": alike, "labels": {s.sampler: s.label for s in scene.samplers},
+        "spectrum_figure": behind.spectrum_figure(evidence, styles, f"{key}-spectrum") if evidence.images else "",
         "scene": scene, "key": key,
         "spp_figure": error_vs_spp(scene, styles, f"{key}-spp"),
         "seconds_figure": error_vs_seconds(scene, styles, f"{key}-seconds"),

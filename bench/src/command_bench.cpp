@@ -10,6 +10,7 @@
 #include "report.h"
 #include "row_store.h"
 #include "scene_setup.h"
+#include "summary_images.h"
 #include "trials.h"
 
 #include <koksma/film/atomic_file.h>
@@ -64,7 +65,7 @@ Reference obtain_reference(const Experiment& e, const BenchScene& s, const Regis
     require_writable(file);
     fmt::print(stderr, "koksma: there is no reference for {} yet; rendering it (kept in {})\n", s.what.name, file.parent_path().string());
     Progress progress("reference " + s.what.name, true);
-    Reference reference = make_reference(s.scene, s.plan, s.key, e, e.reference.spp, registry, threads, [&](double f) { progress.update(f); });
+    Reference reference = make_reference(s.scene, s.plan, s.key, e, e.reference.spp, registry, threads, [&](double f) { progress.update(f); }, steps_of(file));
     save_reference(file, reference);
     return reference;
 }
@@ -221,6 +222,7 @@ int run_bench(const BenchCommand& command, const Registry& registry, const std::
         for (std::size_t i = 0; i < run.scenes.size(); ++i) {
             Json entry = scene_json(run.scenes[i], judges[i]);
             if (shard.part == 1) entry["picture"] = render_picture(run.experiment, run.scenes[i], registry, out, command.threads);
+            save_reference_images(out, run.scenes[i].what.name, references[i]);
             write_crops(entry, run.scenes[i], references[i], rows, run.experiment.crop_spp, out);
             header["scenes"].push_back(entry);
         }

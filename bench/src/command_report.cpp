@@ -3,6 +3,7 @@
 #include "python.h"
 #include "report.h"
 #include "summary.h"
+#include "summary_images.h"
 
 #include <koksma/film/atomic_file.h>
 
@@ -17,7 +18,8 @@ void write_summary(const std::filesystem::path& directory) {
     nlohmann::ordered_json header;
     std::vector<Row> rows;
     read_results(directory / "results.jsonl", header, rows);
-    const nlohmann::ordered_json summary = summarize(header, rows);
+    nlohmann::ordered_json summary = summarize(header, rows);
+    add_image_errors(directory, header, rows, summary);
     write_atomically(directory / "summary.json", [&](const std::filesystem::path& file) {
         std::ofstream out(file);
         out << summary.dump(1) << '\n';

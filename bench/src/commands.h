@@ -72,6 +72,7 @@ struct ReferenceCommand {
     std::uint64_t spp = 0;                       ///< per replicate; 0: the experiment's
     int threads = 0;
     bool force = false;
+    bool check = false;                          ///< also against a third render
 };
 
 struct CheckCommand {

@@ -51,4 +51,12 @@ struct Contender {
 /// @param scenes  the contenders of each scene
 [[nodiscard]] nlohmann::ordered_json across_scenes_json(const std::vector<std::vector<Contender>>& scenes, const std::string& baseline);
 
+/// 1 / (MSE x CPU seconds), of the means; the seconds' own uncertainty is not in the interval.
+[[nodiscard]] nlohmann::ordered_json efficiency_json(const Point& point, bool randomized);
+/// MSE of the baseline over that of the sampler after equally many CPU seconds: the most that both were measured for. Between points by
+/// straight lines in log-log, never beyond them: null where they have no time in common.
+[[nodiscard]] nlohmann::ordered_json equal_time_json(const Curve& curve, const Curve& baseline);
+/// The nanoseconds a path of B below which B is more efficient than A at this spp, MSE as measured: ns of A times MSE of A over MSE of B.
+[[nodiscard]] nlohmann::ordered_json overtake_json(const Contender& a, const Contender& b, std::uint64_t spp);
+
 }  // namespace koksma

@@ -158,6 +158,7 @@ int run_program(int argc, char** argv) {
     c->add_option("-n,--spp", reference.spp, "Samples per pixel of each replicate")->check(not_a_count);
     c->add_option("-t,--threads", reference.threads, "Threads; 0: all")->check(CLI::Range(0, 4096));
     c->add_flag("--force", reference.force, "Remake those that exist");
+    c->add_flag("--check", reference.check, "Also compare with a third render by another estimator, and print the smallest bias that it could have seen");
     c->final_callback([&] { action = [&] { return run_reference(reference, registry); }; });
 
     LimitsCommand limits;

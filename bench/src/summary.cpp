@@ -45,6 +45,8 @@ Json point_json(const Point& p, bool randomized, const Curve& baseline) {
             {"wall_seconds", wall.value},
             {"sampler_share", cpu.value > 0.0 ? mean_estimate(p.sampler, kConfidence).value / cpu.value : 0.0},
             {"fill", p.fills.size() == 1 ? p.fills.front() : "several"},
+            {"efficiency", efficiency_json(p, randomized)},
+            {"ns_per_path", p.paths > 0 ? Json(1e9 * cpu.value / static_cast<double>(p.paths)) : Json()},
             {"metrics", metrics_json(p, randomized, baseline)},
             {"below_floor", mse.below_floor}};
 }
@@ -207,6 +209,7 @@ Json summarize(const Json& header, const std::vector<Row>& rows) {
                           {"heavy_tailed", row->randomized && tails_of(curve)},
                           {"slope", slope_json(curve, row->randomized)},
                           {"time_to", times_json(curve, row->randomized, header.at("relmse_targets"))},
+                          {"equal_time_vs_random", spec == baseline || base_curve.empty() ? Json() : equal_time_json(curve, base_curve)},
                           {"gain_vs_random", spec == baseline ? Json() : gain_json(curve, row->randomized, base_curve)}};
             const Json& crops = scene.at("crops");
             entry["crop"] = crops.contains(spec) ? crops.at(spec) : Json();

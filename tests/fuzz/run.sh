@@ -1,6 +1,6 @@
 #!/bin/sh
 # Fuzzes the loaders: tests/fuzz/run.sh [seconds for each of three] [inputs at most]. Seeds: the scenes and meshes of this repository.
-# What it finds lies in build/fuzz/found. Needs Clang with libFuzzer (CXX=clang++-16 by default).
+# What it finds lies in build/fuzz/found. Needs Clang with libFuzzer (CXX=clang++-16 by default; on Debian also libclang-rt-16-dev).
 set -e
 cd "$(dirname "$0")/../.."
 seconds=${1:-600} runs=${2:--1}

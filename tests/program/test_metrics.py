@@ -109,5 +109,40 @@ class Ranks(BenchTest):
         self.assertIn("of other scenes this says nothing", out)
 
 
+class Times(BenchTest):
+    def test_efficiency_equal_time_and_overtaking(self):
+        self.write_experiment(spp=[1, 4, 16], replicates=[4, 4, 4])
+        self.bench("--no-report")
+        (scene,) = self.summary()["scenes"]
+        random, sobol = scene["samplers"]
+        for point in random["points"]:
+            self.assertAlmostEqual(point["efficiency"]["value"] * point["mse"] * point["cpu_seconds"], 1, delta=1e-9)
+            self.assertAlmostEqual(point["ns_per_path"] * point["spp"] * 64 / 1e9 / point["cpu_seconds"], 1, delta=1e-9)
+        (pair,) = scene["pairs"]
+        overtake = pair["b_overtakes_below_ns_per_path"]
+        a, b = random["points"][-1], sobol["points"][-1]
+        self.assertAlmostEqual(overtake["value"] / (a["ns_per_path"] * a["mse"] / b["mse"]), 1, delta=1e-9)
+        equal = sobol["equal_time_vs_random"]
+        if equal:
+            self.assertEqual(equal["seconds"], min(a["cpu_seconds"], b["cpu_seconds"]))
+            self.assertGreater(equal["mse_ratio"], 0)
+        self.assertEqual({p["fill"] for s in scene["samplers"] for p in s["points"]} - {"scalar", "vector", "unstated"}, set())
+
+
+class Maps(BenchTest):
+    def test_image_errors_at_the_kept_count(self):
+        self.bench("--no-report")
+        random, sobol = self.summary()["scenes"][0]["samplers"]
+        self.assertIsNone(random["image_error"]["median_pixel_gain"])
+        error = sobol["image_error"]
+        self.assertGreater(error["median_pixel_gain"], 0)
+        self.assertEqual((error["spp"], error["replicates"], len(error["spectrum"]), [b["sigma"] for b in error["blurred"]]), (4, 4, 5, [1, 2]))
+        self.assertLess(error["blurred"][1]["rmse"]["value"], error["blurred"][0]["rmse"]["value"])
+        self.assertEqual(set(error["maps"]), {"mse", "variance", "bias_z"})
+        for name in error["maps"].values():
+            data = self.read(f"out/{name}")
+            self.assertEqual((data[:8], len(data)), (b"\x93NUMPY\x01\x00", 128 + 4 * 64))
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -93,3 +93,20 @@ TEST_CASE("a filtered picture of an edge has the filter's step", "[scenes]") {
         CHECK(std::fabs(soft.mean({x, 0}).y - (x < 6 ? 1.0 : x > 9 ? 0.0 : expected)) < 2e-3);
     }
 }
+
+TEST_CASE("moments are the means of the samples' X, Y, Z squared", "[scenes]") {
+    // Half of a pixel's samples see 3, half see nothing.
+    SceneDescription d = empty_scene(1, 1);
+    d.camera.orthographic = true;
+    d.camera.to_world = look_at({0, 0, 5}, {0, 0, 0});
+    d.integrator.max_depth = 1;
+    add_light(d, RectangleShape{}, translated({-1, 0, 0}), Rgb(3.0f));
+    CHECK_FALSE(Ready(d).render(kSobol, 64, 3).film.has_moments());
+    d.integrator.moments = "img";
+    const Film film = Ready(d).render(kSobol, 64, 3).film;
+    const Vec3d bright = xyz_of({3, 3, 3}), second = film.second_moment({0, 0});
+    CHECK(film.mean({0, 0}).y == 1.5);
+    CHECK(std::fabs(second.x - 0.5 * bright.x * bright.x) < 1e-9);
+    CHECK(std::fabs(second.y - 0.5 * bright.y * bright.y) < 1e-9);
+    CHECK(std::fabs(second.z - 0.5 * bright.z * bright.z) < 1e-9);
+}

@@ -319,7 +319,7 @@ private:
             Float(0.0f).store(packet_.t_near);
             Float::load(q.t_far + at).store(packet_.t_far);
             select(active, Int32(-1), Int32(0)).store(valid_);
-            scene_.accelerator.occluded(packet_, valid_, depth_ == 0 ? Coherence::coherent : Coherence::incoherent);
+            scene_.accelerator.occluded(packet_, valid_, Coherence::incoherent);  // also from camera hits: 0.63 to 0.99 of the time
             Int32::load(q.slot + at).store(slots_);
             const Mask visible = active & !(Float::load(packet_.t_far) < Float(0.0f));
             for_lanes(visible, [&](int i) {

@@ -7,6 +7,8 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <istream>
+#include <ostream>
 
 namespace koksma {
 
@@ -85,6 +87,42 @@ ReferenceHalf HalfAccumulator::finish(std::string sampler, std::uint64_t spp) co
         const double variance = std::max(0.0, (sum_of_squares_[i] - sum_[i] * mean) / (n_ - 1)) / n_;
         half.mean.push_back(static_cast<float>(shift_[i] + mean));
         half.variance.push_back(static_cast<float>(variance));
+    }
+    return half;
+}
+
+namespace {
+
+constexpr std::uint64_t kHalfMagic = 0x31666c61686b736bull;  // "kskhalf1"
+
+template <class T>
+void put(std::ostream& out, const T* values, std::size_t count) {
+    out.write(reinterpret_cast<const char*>(values), static_cast<std::streamsize>(count * sizeof(T)));
+}
+template <class T>
+void get(std::istream& in, T* values, std::size_t count) {
+    in.read(reinterpret_cast<char*>(values), static_cast<std::streamsize>(count * sizeof(T)));
+    if (!in) throw Error("the sums of a reference end too early");
+}
+
+}  // namespace
+
+void HalfAccumulator::write(std::ostream& out) const {
+    const std::uint64_t head[3] = {kHalfMagic, static_cast<std::uint64_t>(n_), sum_.size()};
+    put(out, head, 3);
+    for (const std::vector<double>* v : {&shift_, &sum_, &sum_of_squares_}) put(out, v->data(), v->size());
+}
+
+HalfAccumulator HalfAccumulator::read(std::istream& in) {
+    std::uint64_t head[3] = {};
+    get(in, head, 3);
+    constexpr std::uint64_t kMost = 1u << 30;
+    if (head[0] != kHalfMagic || head[1] > kMost || head[2] > kMost) throw Error("not the sums of a reference");
+    HalfAccumulator half;
+    half.n_ = static_cast<int>(head[1]);
+    for (std::vector<double>* v : {&half.shift_, &half.sum_, &half.sum_of_squares_}) {
+        v->resize(head[2]);
+        get(in, v->data(), v->size());
     }
     return half;
 }

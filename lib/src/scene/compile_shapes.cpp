@@ -81,7 +81,7 @@ public:
         if (!(cylinder.radius > 0.0) || !std::isfinite(cylinder.radius) || !(glm::length(axis) > 0.0))
             throw Error(shape_.where.text() + ": a cylinder needs a positive radius and a length");
         GeometryRecord g = record(GeometryKind::cylinder);
-        g.flip = g.flip != (glm::determinant(glm::dmat3(m)) < 0.0);
+        // Unlike a sphere's, a mirrored cylinder's normals stay outside: so it is in Mitsuba.
         g.first = static_cast<std::uint32_t>(scene_.cylinders.size());
         scene_.cylinders.push_back(cylinder);
         scene_.geometries.push_back(g);

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <iosfwd>
 #include <span>
 #include <string>
 #include <vector>
@@ -42,6 +43,12 @@ public:
     void add(std::span<const float> image);
     /// @throws Error with fewer than two replicates
     [[nodiscard]] ReferenceHalf finish(std::string sampler, std::uint64_t spp) const;
+    [[nodiscard]] int replicates() const noexcept { return n_; }
+
+    /// The sums as they are, bit by bit: what is read goes on as if it had never stopped. Native byte order; not for other machines.
+    void write(std::ostream& out) const;
+    /// @throws Error if it is not what write() wrote
+    [[nodiscard]] static HalfAccumulator read(std::istream& in);
 
 private:
     std::vector<double> sum_, sum_of_squares_, shift_;

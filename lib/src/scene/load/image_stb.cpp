@@ -34,13 +34,21 @@ namespace {
 /// IEC 61966-2-1, the curve of sRGB, from [0, 1] to linear.
 double srgb_to_linear(double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); }
 
-std::vector<float> decoding_table(unsigned levels, bool raw) {
+std::vector<float> make_decoding_table(unsigned levels, bool raw) {
     std::vector<float> table(levels);
     for (unsigned i = 0; i < levels; ++i) {
         const double v = double(i) / double(levels - 1);
         table[i] = static_cast<float>(raw ? v : srgb_to_linear(v));
     }
     return table;
+}
+
+/// Made once: 65536 powers take longer than most pictures.
+const std::vector<float>& decoding_table(unsigned levels, bool raw) {
+    static const std::vector<float> bytes[2] = {make_decoding_table(256, false), make_decoding_table(256, true)};
+    if (levels == 256) return bytes[raw ? 1 : 0];
+    static const std::vector<float> words[2] = {make_decoding_table(65536, false), make_decoding_table(65536, true)};
+    return words[raw ? 1 : 0];
 }
 
 struct FreePixels {
@@ -70,11 +78,11 @@ Image decode_stb(const std::string& bytes, const std::string& name, bool raw) {
         return decode(loaded, width, height, name, [](float v) { return v; });
     }
     if (stbi_is_16_bit_from_memory(data, size)) {
-        const auto table = decoding_table(65536, raw);
+        const auto& table = decoding_table(65536, raw);
         stbi_us* loaded = stbi_load_16_from_memory(data, size, &width, &height, &channels, 3);
         return decode(loaded, width, height, name, [&](stbi_us v) { return table[v]; });
     }
-    const auto table = decoding_table(256, raw);
+    const auto& table = decoding_table(256, raw);
     stbi_uc* loaded = stbi_load_from_memory(data, size, &width, &height, &channels, 3);
     return decode(loaded, width, height, name, [&](stbi_uc v) { return table[v]; });
 }
