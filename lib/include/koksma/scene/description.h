@@ -283,7 +283,7 @@ struct ReconstructionFilter {
 struct FilmSettings {
     std::int32_t width = 768, height = 576;
     std::int32_t crop_x = 0, crop_y = 0, crop_width = 0, crop_height = 0;  ///< crop_width 0: the whole film
-    ReconstructionFilter filter;
+    ReconstructionFilter filter{};
 };
 
 struct IntegratorSettings {
