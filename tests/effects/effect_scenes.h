@@ -4,6 +4,7 @@
 #include <koksma/plan/effect.h>
 
 #include <scenes/describe.h>
+#include <scenes/layered_materials.h>
 
 #include <memory>
 #include <utility>
@@ -106,6 +107,22 @@ struct EffectScene {
     const std::uint32_t glass = add_material(d, Dielectric{});
     add_shape(d, CubeShape{}, translated({0, 0.5, 0}) * scaled(0.4), glass);
     add(Effect::dielectric, d);
+    add(Effect::lobe, d);
+    d = floor_scene();
+    const std::uint32_t window = add_material(d, ThinDielectric{});
+    add_shape(d, CubeShape{}, translated({0, 0.5, 0}) * scaled(0.4), window);
+    add(Effect::dielectric, d);
+
+    for (const Material& layered_material : layered_materials()) {
+        d = floor_scene();
+        d.materials.push_back(layered_material);
+        const auto layered = static_cast<std::uint32_t>(d.materials.size() - 1);
+        add_shape(d, CubeShape{}, translated({-0.6, 0.5, 0}) * rotated({0, 1, 0}, 20) * scaled(0.3), layered);
+        add_shape(d, SphereShape{}, translated({0.6, 0.5, 0}) * scaled(0.4), layered);
+        add_shape(d, DiskShape{}, translated({0, 0.9, 0.4}) * rotated({1, 0, 0}, -60) * scaled(0.4), layered);
+        d.integrator.max_depth = 8;
+        add(Effect::layered, d);
+    }
 
     d = floor_scene();
     const std::uint32_t both = add_diffuse(d, 0.7f, true);

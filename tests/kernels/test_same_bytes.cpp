@@ -55,6 +55,7 @@ TEST_CASE("a path does not depend on the others of its batch", "[kernels]") {
     std::uint64_t paths = 0;
     for (const NamedScene& s : kernel_scenes()) {
         const Ready ready(s.description);
+        if (family(ready.plan.effects, true).empty()) continue;
         const Kernel& kernel = *family(ready.plan.effects, true).front();
         const Traced whole = trace_all(ready, kernel, 8, 21);
         for (const std::size_t at_once : {1, 5, 16, 1000}) {

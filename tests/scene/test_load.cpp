@@ -159,7 +159,7 @@ TEST_CASE("references reach everything with an id, before or after", "[unit][sce
 
 TEST_CASE("mistakes in objects that nothing uses are found", "[unit][scene]") {
     const SceneFiles files;
-    CHECK_ERROR(files.error_of("<bsdf type=\"plastic\" id=\"p\"/>"), "scene.xml:2:1", "'plastic'");
+    CHECK_ERROR(files.error_of("<bsdf type=\"velvet\" id=\"p\"/>"), "scene.xml:2:1", "'velvet'");
     CHECK_ERROR(files.error_of("<texture type=\"noise\" id=\"p\"/>"), "scene.xml:2:1", "'noise'");
     CHECK_ERROR(files.error_of("<emitter type=\"area\"/>"), "scene.xml:2:1", "not attached");
 }

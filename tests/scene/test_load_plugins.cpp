@@ -123,6 +123,54 @@ TEST_CASE("materials have Mitsuba's defaults and take its parameters", "[unit][s
     CHECK(!material_of(files, bsdf("diffuse")).two_sided);
 }
 
+TEST_CASE("layered materials have Mitsuba's defaults and take its parameters", "[unit][scene]") {
+    const SceneFiles files;
+    const auto of = [&](const std::string& type, const std::string& contents = {}) { return material_of(files, bsdf(type, contents)).front; };
+    CHECK(std::get<ThinDielectric>(of("thindielectric")).int_ior == 1.5046f);
+    const auto glass = std::get<RoughDielectric>(of("roughdielectric", text("distribution", "ggx") + number("alpha_u", ".2") + number("alpha_v", ".3")));
+    CHECK(glass.distribution == Facets::ggx);
+    CHECK(std::get<Rgb>(glass.alpha_v) == Rgb(0.3f));
+    const auto plastic = std::get<Plastic>(of("plastic", rgb("diffuse_reflectance", ".1 .2 .3")));
+    CHECK(plastic.int_ior == 1.49f);
+    CHECK(!plastic.nonlinear);
+    CHECK(std::get<Rgb>(plastic.diffuse_reflectance) == Rgb(0.1f, 0.2f, 0.3f));
+    const auto rough = std::get<RoughPlastic>(of("roughplastic", R"(<boolean name="nonlinear" value="true"/>)"));
+    CHECK((rough.nonlinear && rough.alpha == 0.1f && rough.distribution == Facets::beckmann));
+    CHECK(std::get<Principled>(of("principled")).eta == Approx(1.5f));
+    CHECK(std::get<Principled>(of("principled", number("eta", "1.7") + number("spec_trans", "1"))).eta == 1.7f);
+    CHECK(std::get<Principled>(of("principled", number("specular", "0") + number("spec_trans", "1"))).eta > 1.01f);
+    const auto blend = std::get<Blend>(of("blendbsdf", number("weight", ".25") + bsdf("twosided", bsdf("diffuse")) + bsdf("plastic")));
+    CHECK(blend.nested.size() == 2);
+    CHECK((blend.nested[0].two_sided && !blend.nested[1].two_sided));
+    const auto mask = std::get<Mask>(of("mask", bsdf("blendbsdf", number("weight", ".25") + bsdf("diffuse") + bsdf("null"))));
+    CHECK(std::get<Rgb>(mask.opacity) == Rgb(0.5f));
+    CHECK(std::holds_alternative<Null>(std::get<Blend>(mask.nested.at(0).front).nested.at(1).front));
+    const auto bump = std::get<BumpMap>(of("bumpmap", R"(<texture type="checkerboard" name="anything"/>)" + number("scale", "3") + bsdf("diffuse")));
+    CHECK((bump.scale == 3.0f && bump.bending.flip_invalid_normals && bump.bending.use_shadowing_function));
+    CHECK(std::holds_alternative<NormalMap>(of("twosided", bsdf("normalmap", rgb("normalmap", ".5 .5 1") + bsdf("diffuse")))));
+    const auto gold = std::get<Conductor>(of("conductor", text("material", "Au")));
+    CHECK((!gold.perfect && gold.eta.b > 1.4f && gold.k.r > 3.9f));
+}
+
+TEST_CASE("layered materials out of range are refused", "[unit][scene]") {
+    const SceneFiles files;
+    CHECK_ERROR(files.error_of(bsdf("plastik")), "did you mean 'plastic'?", "principled");
+    CHECK_ERROR(files.error_of(bsdf("plastic", number("alpha", ".1"))), "no parameter 'alpha'", "nonlinear");
+    CHECK_ERROR(files.error_of(bsdf("roughplastic", number("alpha", "-.1"))), "negative");
+    CHECK_ERROR(files.error_of(bsdf("principled", number("eta", "1.5") + number("specular", ".5"))), "'eta' or 'specular'");
+    CHECK_ERROR(files.error_of(bsdf("principled", number("metallic", "1.5"))), "[0, 1]");
+    CHECK_ERROR(files.error_of(bsdf("principled", number("diffuse_reflectance_sampling_rate", "0"))), "must be positive");
+    CHECK_ERROR(files.error_of(bsdf("blendbsdf", bsdf("diffuse") + bsdf("diffuse"))), "'weight'");
+    CHECK_ERROR(files.error_of(bsdf("blendbsdf", number("weight", "1") + bsdf("diffuse"))), "takes 2 bsdfs; found 1");
+    CHECK_ERROR(files.error_of(bsdf("mask", number("opacity", "1"))), "takes 1 bsdf; found 0");
+    CHECK_ERROR(files.error_of(bsdf("null", number("opacity", "1"))), "no parameter 'opacity'");
+    CHECK_ERROR(files.error_of(bsdf("normalmap", bsdf("diffuse"))), "'normalmap' needs a <texture");
+    CHECK_ERROR(files.error_of(bsdf("bumpmap", bsdf("diffuse"))), "needs a <texture>");
+    for (const std::string& inside : {bsdf("thindielectric"), bsdf("roughdielectric"), bsdf("null"), bsdf("mask", bsdf("diffuse")), bsdf("principled", number("spec_trans", ".1"))})
+        CHECK_ERROR(files.error_of(bsdf("twosided", inside)), "lets light through");
+    CHECK_ERROR(files.error_of(R"(<shape type="cube"><bsdf type="mask" id="a"><ref id="a"/></bsdf></shape>)"), "nested more than 8 deep");
+}
+
 TEST_CASE("materials out of range are refused", "[unit][scene]") {
     const SceneFiles files;
     CHECK_ERROR(files.error_of(bsdf("diffuse", "\n" + rgb("reflectance", "1.5"))), "scene.xml:3:1", "'reflectance'", "[0, 1]");
@@ -139,7 +187,8 @@ TEST_CASE("materials out of range are refused", "[unit][scene]") {
     CHECK_ERROR(files.error_of(bsdf("diffuse", R"(<texture name="reflectance" type="mesh_attribute"><string name="name" value="colour"/></texture>)")), "vertex_ or face_");
     CHECK_ERROR(files.error_of(bsdf("dielectric", text("int_ior", "diamant"))), "did you mean 'diamond'?", "bk7");
     CHECK_ERROR(files.error_of(bsdf("dielectric", number("int_ior", "-1"))), "positive");
-    CHECK_ERROR(files.error_of(bsdf("conductor", text("material", "Au"))), "'Au'", "eta", "none");
+    CHECK_ERROR(files.error_of(bsdf("conductor", text("material", "Aq"))), "'Aq'", "did you mean", "Au", "eta", "none");
+    CHECK_ERROR(files.error_of(bsdf("conductor", text("material", "Au") + rgb("k", "1, 1, 1"))), "'material', or 'eta' and 'k'");
     CHECK_ERROR(files.error_of(bsdf("conductor", rgb("eta", "-1,0,0"))), "negative");
     CHECK_ERROR(files.error_of(bsdf("conductor", R"(<texture name="eta" type="checkerboard"/>)")), "one colour");
     CHECK_ERROR(files.error_of(bsdf("roughconductor", number("alpha_u", ".2"))), "alpha_v");
@@ -148,7 +197,7 @@ TEST_CASE("materials out of range are refused", "[unit][scene]") {
     CHECK_ERROR(files.error_of(bsdf("roughconductor", text("distribution", "phong"))), "'phong'", "beckmann, ggx");
     CHECK_ERROR(files.error_of(bsdf("twosided")), "one bsdf, or two");
     CHECK_ERROR(files.error_of(bsdf("twosided", bsdf("dielectric"))), "dielectric");
-    CHECK_ERROR(files.error_of(bsdf("twosided", bsdf("twosided", bsdf("diffuse")))), "inside another bsdf");
+    CHECK_ERROR(files.error_of(bsdf("twosided", bsdf("twosided", bsdf("diffuse")))), "inside 'twosided'");
 }
 
 TEST_CASE("a flat spectrum is a grey reflectance but, as light, the equal-energy white", "[unit][scene]") {

@@ -87,7 +87,7 @@ void add_lamp(SceneDescription& d, Kind kind) {
 struct Case {
     std::string name;
     OneSidedMaterial material;
-    bool two_sided = false, from_behind = false;
+    bool two_sided = false, from_behind = false, from_below = false;
 };
 
 std::vector<Case> cases() {
@@ -102,7 +102,39 @@ std::vector<Case> cases() {
         return r;
     };
     using enum RoughConductor::Distribution;
-    return {{"diffuse", Diffuse{Rgb(0.7f)}},
+    const auto rough_glass = [](Facets distribution, float u, float v) {
+        RoughDielectric r;
+        r.distribution = distribution;
+        r.alpha_u = Rgb(u);
+        r.alpha_v = Rgb(v);
+        return r;
+    };
+    RoughPlastic rough_plastic;
+    rough_plastic.alpha = 0.2f;
+    Principled sliders;
+    sliders.base_color = Rgb(0.3f, 0.6f, 0.2f);
+    for (Texture* t : {&sliders.metallic, &sliders.spec_trans, &sliders.spec_tint, &sliders.sheen, &sliders.sheen_tint, &sliders.flatness, &sliders.clearcoat, &sliders.anisotropic})
+        *t = Rgb(0.4f);
+    const auto nested = [](OneSidedMaterial m) {
+        Material out;
+        out.front = std::move(m);
+        return out;
+    };
+    const Blend blend{Rgb(0.4f), {nested(Plastic{}), nested(rough_glass(ggx, 0.4f, 0.4f))}};
+    const NormalMap normal_map{Rgb(0.6f, 0.45f, 0.9f), {true, true, {nested(rough(ggx, 0.3f, 0.3f))}}};
+    return {{"rough glass, ggx 0.4", rough_glass(ggx, 0.4f, 0.4f)},
+            {"rough glass, beckmann 0.3 x 0.5", rough_glass(beckmann, 0.3f, 0.5f)},
+            {"rough glass, ggx 0.5, from below", rough_glass(ggx, 0.5f, 0.5f), false, false, true},
+            {"rough glass, beckmann 0.4, upside down, from below", rough_glass(beckmann, 0.4f, 0.4f), false, true, true},
+            {"plastic", Plastic{}},
+            {"two-sided plastic from behind", Plastic{}, true, true},
+            {"rough plastic", rough_plastic},
+            {"principled", sliders},
+            {"principled from below", sliders, false, false, true},
+            {"blend of plastic and rough glass", blend},
+            {"mask of rough plastic", Mask{Rgb(0.7f), {nested(rough_plastic)}}},
+            {"normal map", normal_map},
+            {"diffuse", Diffuse{Rgb(0.7f)}},
             {"ggx 0.7", rough(ggx, 0.7f, 0.7f)},
             {"ggx 0.2", rough(ggx, 0.2f, 0.2f)},
             {"ggx 0.03", rough(ggx, 0.03f, 0.03f)},
@@ -122,7 +154,7 @@ SceneDescription scene_of(const Case& c, Kind kind) {
     // Something in the way of a part of the light.
     const std::uint32_t black = add_diffuse(d, 0.0f);
     add_shape(d, SphereShape{}, translated({-0.7, 0.7, 0.4}) * scaled(0.15), black);
-    look_narrowly(d, {1.1, 1.2, 0}, {0, 0, 0}, 1e-4);
+    look_narrowly(d, {1.1, c.from_below ? -1.2 : 1.2, 0}, {0, 0, 0}, 1e-4);
     d.integrator.max_depth = 2;
     return d;
 }
@@ -139,10 +171,10 @@ public:
     }
     /// One sample of light sampling, weighted or not; green.
     [[nodiscard]] double by_light(Uniform& u, bool weighted) const {
-        const LightChoice choice = choose_light<kAll>(scene_, surface_.p, local_.frame.n, u());
+        const LightChoice choice = choose_light<kAll>(scene_, surface_.p, lit_normal_of<kAll>(local_, wo_), u());
         const LightSample s = sample_light<kAll>(scene_, scene_.lights[choice.light], surface_.p, u.pair(), choice.triangle);
         if (!(s.pdf_w > 0.0f && choice.probability > 0.0f)) return 0.0;
-        const BsdfValue f = eval_bsdf<kAll>(local_.bsdf, wo_, local_.frame.to_local(s.wi));
+        const BsdfValue f = eval_local<kAll>(scene_, local_, wo_, local_.frame.to_local(s.wi));
         if (!(max_component(f.f_cos) > 0.0f)) return 0.0;
         Ray shadow;
         shadow.o = offset_origin(surface_.p, surface_.p_error, surface_.ng, s.wi);
@@ -152,9 +184,11 @@ public:
         const float pdf = s.pdf_w * choice.probability;
         return f.f_cos.y * s.radiance.y / pdf * (weighted && !s.delta ? power_heuristic(pdf, f.pdf_w) : 1.0f);
     }
-    [[nodiscard]] double by_bsdf(Uniform& u, bool weighted) const {
-        const BsdfSample s = sample_bsdf<kAll>(local_.bsdf, wo_, u(), u.pair());
-        if (!(s.pdf_w > 0.0f)) return 0.0;
+    /// @param delta_only  the part that light sampling cannot find
+    [[nodiscard]] double by_bsdf(Uniform& u, bool weighted, bool delta_only = false) const {
+        const BsdfSample s = sample_local<kAll>(scene_, local_, wo_, u(), u.pair());
+        if (!(s.pdf_w > 0.0f) || (delta_only && !s.delta)) return 0.0;
+        weighted = weighted && !s.delta;
         const Vec3f wi = local_.frame.to_world(s.wi);
         const Ray ray{offset_origin(surface_.p, surface_.p_error, surface_.ng, wi), wi};
         const Hit hit = scene_.accelerator.intersect(ray);
@@ -176,7 +210,7 @@ public:
 
 private:
     [[nodiscard]] float probability(std::uint32_t light, std::uint32_t triangle) const {
-        return choice_probability<kAll>(scene_, light, triangle, surface_.p, local_.frame.n);
+        return choice_probability<kAll>(scene_, light, triangle, surface_.p, lit_normal_of<kAll>(local_, wo_));
     }
 
     const Scene& scene_;
@@ -211,7 +245,7 @@ TEST_CASE("light sampling, BSDF sampling and both agree with the path kernel, fo
             const Ready ready(scene_of(c, kind));
             const Point point(ready.scene);
             Uniform u(seed++);
-            const Measured light = average(kDraws, [&] { return point.by_light(u, false); });
+            const Measured light = average(kDraws, [&] { return point.by_light(u, false) + point.by_bsdf(u, false, true); });
             const Measured bsdf = average(kDraws, [&] { return point.by_bsdf(u, false); });
             const Measured both = average(kDraws, [&] { return point.by_light(u, true) + point.by_bsdf(u, true); });
             const Measured kernel = measure(ready, 2048, 8);
@@ -233,7 +267,7 @@ TEST_CASE("light sampling, BSDF sampling and both agree with the path kernel, fo
                 CHECK(agree(bsdf, light));
             }
             CHECK(agree(both, kernel));
-            CHECK(both.standard_error <= 0.02 * both.mean);
+            CHECK(both.standard_error <= 0.025 * both.mean);
         }
 }
 

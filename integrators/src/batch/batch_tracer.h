@@ -17,6 +17,7 @@ KOKSMA_MATHS_END
 #include "distribution_pack.h"
 #include "surface_pack.h"
 #include "light_pack.h"
+#include "bsdf_lanes.h"
 #include "batch_numbers.h"
 #include "ray_order.h"
 
@@ -137,12 +138,12 @@ private:
 
         // ---- where the paths go on
         Float u_lobe{};
-        if constexpr (kEffects.has(Effect::dielectric))
-            if (const Mask m = alive & is(local.bsdf, BsdfKind::dielectric); any(m)) u_lobe = numbers_.get_1d(at, m, SlotRole::lobe, &BounceSlots::lobe);
+        if constexpr (kEffects.has(Effect::lobe))
+            if (const Mask m = alive & chooses_lobe(local.bsdf); any(m)) u_lobe = numbers_.get_1d(at, m, SlotRole::lobe, &BounceSlots::lobe);
         Vec2<Float> u_direction{};
         if constexpr (kSmooth)
             if (const Mask m = alive & has_smooth_lobe(local.bsdf); any(m)) u_direction = numbers_.get_2d(at, m, SlotRole::direction, &BounceSlots::direction);
-        const BsdfSampleOf<Float> next = sample_bsdf<kEffects>(local.bsdf, wo_local, u_lobe, u_direction);
+        const BsdfSampleOf<Float> next = sample_pack<kEffects>(scene_, local, alive, wo_local, u_lobe, u_direction);
         alive = alive & !(next.pdf_w <= Float(0.0f));
         beta *= next.weight;
         const Float total = sum(beta);
@@ -171,7 +172,7 @@ private:
         compress_store(beta, alive, q.beta, to);
         next.pdf_w.compress_store(alive, q.pdf + to);
         if constexpr (kEffects.has(Effect::area_light) || kEffects.has(Effect::many_lights)) compress_store(surface.p, alive, q.last_p, to);
-        if constexpr (kEffects.has(Effect::many_lights)) compress_store(local.frame.n, alive, q.last_n, to);
+        if constexpr (kEffects.has(Effect::many_lights)) compress_store(lit_normal_pack<kEffects>(local, wo_local), alive, q.last_n, to);
         if constexpr (kEffects.has(Effect::dielectric)) eta_scale.compress_store(alive, q.eta_scale + to);
         if constexpr (kEffects.has(Effect::roulette)) lossless.compress_store(alive, q.lossless + to);
         if constexpr (kDelta)
@@ -275,14 +276,14 @@ private:
                       const Vec3<Float>& beta) {
         LightChoicePack choice = LightChoicePack::only();
         if constexpr (kEffects.has(Effect::light_choice))
-            choice = choose_light_pack<kEffects>(scene_, smooth, s.p, local.frame.n,
+            choice = choose_light_pack<kEffects>(scene_, smooth, s.p, lit_normal_pack<kEffects>(local, wo_local),
                                                  numbers_.get_1d(at, smooth, SlotRole::light_choice, &BounceSlots::light_choice));
         Vec2<Float> u_light{};
         if constexpr (kExtendedLights) u_light = numbers_.get_2d(at, smooth, SlotRole::light_position, &BounceSlots::light_position);
         const LightSamplePack light = sample_light_pack<kEffects>(scene_, single_light_, smooth, choice, s.p, u_light);
         Mask lit = smooth & (light.pdf_w > Float(0.0f)) & (choice.probability > Float(0.0f));
         if (!any(lit)) return alive;
-        const BsdfValueOf<Float> value = eval_bsdf<kEffects>(local.bsdf, wo_local, local.frame.to_local(light.wi));
+        const BsdfValueOf<Float> value = eval_pack<kEffects>(scene_, local, lit, wo_local, local.frame.to_local(light.wi));
         const Float pdf_light = light.pdf_w * choice.probability;
         const Float weight = select(light.delta, Float(1.0f), power_heuristic(pdf_light, value.pdf_w));
         const Vec3<Float> contribution = beta * value.f_cos * light.radiance * (weight / pdf_light);

@@ -6,7 +6,7 @@ KOKSMA_MATHS_BEGIN
 struct SurfacePack {
     Vec3<Float> p, p_error, ng, n, dpdu;
     Vec2<Float> uv;
-    Int32 geometry, material, light;
+    Int32 geometry, primitive, material, light;
 };
 
 static_assert(sizeof(GeometryRecord) == 16 && offsetof(GeometryRecord, kind) == 0 && offsetof(GeometryRecord, flip) == 1 &&
@@ -132,6 +132,7 @@ template <EffectSet kEffects>
             lanes.get(s);
         }
     s.geometry = g;
+    s.primitive = primitive;
     s.material = gather_int(records, offsetof(GeometryRecord, material), g);
     if constexpr (kEffects.has(Effect::area_light)) s.light = gather_int(records, offsetof(GeometryRecord, light), g);
     return s;
@@ -158,6 +159,9 @@ template <EffectSet kEffects, class Record>
 struct LocalBsdfPack {
     BsdfOf<Float> bsdf;
     FrameOf<Float> frame;
+    Int32 side, geometry, primitive;  ///< where a layered material is asked, with
+    Vec2<Float> uv;
+    Vec3<Float> n;
 };
 
 /// As koksma::bsdf_at.
@@ -185,6 +189,13 @@ template <EffectSet kEffects>
     const MaterialSide* sides = scene.sides.data();
     static_assert(offsetof(MaterialSide, kind) == 0 && offsetof(MaterialSide, perfect) == 4 && offsetof(MaterialSide, ggx) == 5);
     out.bsdf.kind = gather_int(sides, 0, side);
+    if constexpr (kEffects.has(Effect::layered)) {
+        out.side = side;
+        out.geometry = s.geometry;
+        out.primitive = s.primitive;
+        out.uv = s.uv;
+        out.n = s.n;
+    }
     out.bsdf.reflectance = texture_pack<kEffects>(scene, sides, offsetof(MaterialSide, reflectance), side, active, s.uv);
     if constexpr (kEffects.has(Effect::glossy) || kEffects.has(Effect::specular) || kEffects.has(Effect::dielectric)) {
         if (all(out.bsdf.kind == Int32(static_cast<int>(BsdfKind::diffuse)) | !active)) return out;

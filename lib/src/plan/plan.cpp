@@ -36,7 +36,7 @@ DimensionLayout make_layout(EffectSet effects, const IntegratorSettings& setting
         layout.begin_bounce();
         if (smooth && effects.has(Effect::light_choice)) layout.add_bounce(SlotRole::light_choice, 1);
         if (smooth && light_has_extent) layout.add_bounce(SlotRole::light_position, 2);
-        if (effects.has(Effect::dielectric)) layout.add_bounce(SlotRole::lobe, 1);
+        if (effects.has(Effect::lobe)) layout.add_bounce(SlotRole::lobe, 1);
         if (smooth) layout.add_bounce(SlotRole::direction, 2);
         if (effects.has(Effect::roulette) && roulette_at(b, settings)) layout.add_bounce(SlotRole::roulette, 1);
     }

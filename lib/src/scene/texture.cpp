@@ -1,4 +1,5 @@
 #include <koksma/scene/texture.h>
+#include <koksma/scene/texture_gradient.h>
 
 #include <cmath>
 
@@ -60,6 +61,26 @@ Vec3f lookup(const Texture& texture, glm::vec2 uv) noexcept {
     if (const auto* checkerboard = std::get_if<CheckerboardTexture>(&texture)) return lookup(*checkerboard, uv);
     if (std::holds_alternative<MeshAttributeTexture>(texture)) return Vec3f{0.0f};  // who has the mesh looks it up there
     return std::get<Rgb>(texture);
+}
+
+Vec2f gradient(const Texture& texture, glm::vec2 uv) noexcept {
+    const auto* bitmap = std::get_if<BitmapTexture>(&texture);
+    if (bitmap == nullptr || bitmap->filter == BitmapTexture::Filter::nearest) return {};
+    const Image& image = *bitmap->image;
+    const glm::dmat3& m = bitmap->to_uv;
+    uv = transformed(m, uv);
+    const auto texel = [&](int x, int y) -> float {
+        x = wrapped(x, image.width, bitmap->wrap);
+        y = wrapped(y, image.height, bitmap->wrap);
+        return luminance(Vec3f(image.texels[static_cast<std::size_t>(y) * image.width + x]));
+    };
+    const auto width = static_cast<float>(image.width), height = static_cast<float>(image.height);
+    const float sx = uv.x * width - 0.5f, sy = uv.y * height - 0.5f;
+    const int x = floor_to_int(sx), y = floor_to_int(sy);
+    const float wx = sx - std::floor(sx), wy = sy - std::floor(sy);
+    const float t00 = texel(x, y), t10 = texel(x + 1, y), t01 = texel(x, y + 1), t11 = texel(x + 1, y + 1);
+    const float du = ((t10 - t00) * (1.0f - wy) + (t11 - t01) * wy) * width, dv = ((t01 - t00) * (1.0f - wx) + (t11 - t10) * wx) * height;
+    return {du * static_cast<float>(m[0][0]) + dv * static_cast<float>(m[0][1]), du * static_cast<float>(m[1][0]) + dv * static_cast<float>(m[1][1])};
 }
 
 Vec3f mean(const Texture& texture) {

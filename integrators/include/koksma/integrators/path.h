@@ -46,7 +46,7 @@ template <EffectSet kEffects, class Observer>
     float pdf_bsdf = 0.0f;         // of the last direction, per steradian
     bool last_was_delta = true;    // light sampling could not have made the last direction
     Vec3f last_p{0.0f};
-    [[maybe_unused]] Vec3f last_n{0.0f, 0.0f, 1.0f};  // at last_p, on the side that reflects
+    [[maybe_unused]] Vec3f last_n{0.0f, 0.0f, 1.0f};  // at last_p, as lights were chosen there
     [[maybe_unused]] std::int32_t lossless = 0;  // bounces in a row after which nothing was lost
 
     Vec2f u_lens;
@@ -111,12 +111,12 @@ template <EffectSet kEffects, class Observer>
             if (has_smooth_lobe(local.bsdf) && scene.light_choice.total() > 0.0) {
                 LightChoice choice;
                 if constexpr (kEffects.has(Effect::light_choice))
-                    choice = choose_light<kEffects>(scene, surface.p, local.frame.n, draws.light_choice(bounce));
+                    choice = choose_light<kEffects>(scene, surface.p, lit_normal_of<kEffects>(local, wo_local), draws.light_choice(bounce));
                 Vec2f u_light;
                 if constexpr (kExtendedLights) u_light = draws.light_position(bounce);
                 const LightSample light = sample_light<kEffects>(scene, scene.lights[choice.light], surface.p, u_light, choice.triangle);
                 if (light.pdf_w > 0.0f && choice.probability > 0.0f) {
-                    const BsdfValue value = eval_bsdf<kEffects>(local.bsdf, wo_local, local.frame.to_local(light.wi));
+                    const BsdfValue value = eval_local<kEffects>(scene, local, wo_local, local.frame.to_local(light.wi));
                     const float pdf_light = light.pdf_w * choice.probability;
                     const float weight = light.delta ? 1.0f : power_heuristic(pdf_light, value.pdf_w);
                     const Vec3f contribution = beta * value.f_cos * light.radiance * (weight / pdf_light);
@@ -138,12 +138,12 @@ template <EffectSet kEffects, class Observer>
 
         // ---- where the path goes on
         float u_lobe = 0.0f;
-        if constexpr (kEffects.has(Effect::dielectric))
-            if (is(local.bsdf, BsdfKind::dielectric)) u_lobe = draws.lobe(bounce);
+        if constexpr (kEffects.has(Effect::lobe))
+            if (chooses_lobe(local.bsdf)) u_lobe = draws.lobe(bounce);
         Vec2f u_direction;
         if constexpr (kSmooth)
             if (has_smooth_lobe(local.bsdf)) u_direction = draws.direction(bounce);
-        const BsdfSample next = sample_bsdf<kEffects>(local.bsdf, wo_local, u_lobe, u_direction);
+        const BsdfSample next = sample_local<kEffects>(scene, local, wo_local, u_lobe, u_direction);
         if (next.pdf_w <= 0.0f) break;
         beta *= next.weight;
         if (!(sum(beta) > 0.0f) || !(next.pdf_w > 0.0f)) {
@@ -159,7 +159,7 @@ template <EffectSet kEffects, class Observer>
         else
             last_was_delta = false;
         last_p = surface.p;
-        if constexpr (kEffects.has(Effect::many_lights)) last_n = local.frame.n;
+        if constexpr (kEffects.has(Effect::many_lights)) last_n = lit_normal_of<kEffects>(local, wo_local);
         ray = Ray{offset_origin(surface.p, surface.p_error, surface.ng, wi), wi};
 
         // ---- Russian roulette: survival is never capped below one (a cap q gives infinite variance once albedo^2 >= q), except

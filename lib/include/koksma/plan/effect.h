@@ -19,7 +19,7 @@ enum class Effect : std::uint8_t {
     diffuse,          ///< smooth BSDFs: a 2-D draw per bounce, direct light
     glossy,           ///< microfacet BSDFs
     specular,         ///< mirrors: delta directions
-    dielectric,       ///< reflection or refraction: a 1-D draw per bounce
+    dielectric,       ///< refraction: a path keeps the index that it is in
     two_sided,        ///< materials seen from behind
     texture,          ///< values that vary over a surface
     analytic_shape,   ///< spheres, disks and cylinders
@@ -28,14 +28,16 @@ enum class Effect : std::uint8_t {
     roulette,         ///< Russian roulette: a 1-D draw per bounce from rr_depth on
     many_lights,      ///< so many that one is chosen for the point to be lit, by a tree
     mesh_attribute,   ///< textures that look up values of vertices and faces
+    lobe,             ///< BSDFs that choose among lobes: a 1-D draw per bounce
+    layered,          ///< materials of several lobes or parts (koksma/scene/bsdf/layered.h), computed one path at a time
 };
-inline constexpr int kEffectCount = 18;
+inline constexpr int kEffectCount = 20;
 
 [[nodiscard]] constexpr std::string_view name(Effect e) noexcept {
     constexpr std::string_view kNames[kEffectCount] = {"lens",       "light_choice", "area_light", "sphere_light",   "point_light",
                                                        "environment", "diffuse",      "glossy",     "specular",       "dielectric",
                                                        "two_sided",  "texture",      "analytic_shape", "shading_normals", "anisotropic",
-                                                       "roulette",   "many_lights", "mesh_attribute"};
+                                                       "roulette",   "many_lights",  "mesh_attribute", "lobe",          "layered"};
     return kNames[static_cast<int>(e)];
 }
 

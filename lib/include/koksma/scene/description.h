@@ -69,19 +69,84 @@ struct Dielectric {
     float int_ior = 1.5046f, ext_ior = 1.000277f;
     Rgb specular_reflectance{1.0f}, specular_transmittance{1.0f};
 };
+/// Two interfaces so close that what is transmitted goes straight on.
+struct ThinDielectric {
+    float int_ior = 1.5046f, ext_ior = 1.000277f;
+    Rgb specular_reflectance{1.0f}, specular_transmittance{1.0f};
+};
 /// eta = k = 0 with `perfect` set is a mirror that reflects everything (material "none").
 struct Conductor {
     bool perfect = true;
     Rgb eta{0.0f}, k{1.0f};
     Rgb specular_reflectance{1.0f};
 };
+enum class Facets : std::uint8_t { beckmann, ggx };
 struct RoughConductor {
-    enum class Distribution : std::uint8_t { beckmann, ggx };
+    using Distribution = Facets;
     Conductor base;
     Distribution distribution = Distribution::beckmann;
     Texture alpha_u = Rgb(0.1f), alpha_v = Rgb(0.1f);
 };
-using OneSidedMaterial = std::variant<Diffuse, Dielectric, Conductor, RoughConductor>;
+struct RoughDielectric {
+    float int_ior = 1.5046f, ext_ior = 1.000277f;
+    Facets distribution = Facets::beckmann;
+    Texture alpha_u = Rgb(0.1f), alpha_v = Rgb(0.1f);
+    Texture specular_reflectance = Rgb(1.0f), specular_transmittance = Rgb(1.0f);
+};
+/// A diffuse base under a smooth coat.
+struct Plastic {
+    float int_ior = 1.49f, ext_ior = 1.000277f;
+    Texture diffuse_reflectance = Rgb(0.5f), specular_reflectance = Rgb(1.0f);
+    bool nonlinear = false;
+};
+/// A diffuse base under a rough coat.
+struct RoughPlastic {
+    float int_ior = 1.49f, ext_ior = 1.000277f;
+    Facets distribution = Facets::beckmann;
+    float alpha = 0.1f;
+    Texture diffuse_reflectance = Rgb(0.5f), specular_reflectance = Rgb(1.0f);
+    bool nonlinear = false;
+};
+/// Mitsuba's parameters; those that are numbers are textures of one number.
+struct Principled {
+    Texture base_color = Rgb(0.5f), roughness = Rgb(0.5f), anisotropic = Rgb(0.0f), metallic = Rgb(0.0f), spec_trans = Rgb(0.0f);
+    Texture spec_tint = Rgb(0.0f), sheen = Rgb(0.0f), sheen_tint = Rgb(0.0f), flatness = Rgb(0.0f);
+    Texture clearcoat = Rgb(0.0f), clearcoat_gloss = Rgb(0.0f);
+    float eta = 1.5f;  ///< inside / outside; `specular` of a file is turned into it
+    float main_specular_sampling_rate = 1.0f, clearcoat_sampling_rate = 1.0f, diffuse_reflectance_sampling_rate = 1.0f;
+};
+struct Material;
+/// weight 0: the first of two materials, 1: the second.
+struct Blend {
+    Texture weight = Rgb(0.5f);
+    std::vector<Material> nested;
+};
+/// opacity 1: the one nested material, 0: nothing.
+struct Mask {
+    Texture opacity = Rgb(0.5f);
+    std::vector<Material> nested;
+};
+/// Lets everything pass.
+struct Null {};
+/// How a nested material with other normals stays with its surface: normals that look away from the camera are turned, and light near the
+/// horizon fades as on a rough surface.
+struct Bending {
+    bool flip_invalid_normals = true, use_shadowing_function = true;
+    std::vector<Material> nested;  ///< one
+};
+/// Normals out of a texture: (n + 1) / 2 in the frame of the surface.
+struct NormalMap {
+    Texture normals = Rgb(0.5f, 0.5f, 1.0f);
+    Bending bending;
+};
+/// Normals as if a texture times `scale` moved the surface along its normal.
+struct BumpMap {
+    Texture height = Rgb(0.0f);
+    float scale = 1.0f;
+    Bending bending;
+};
+using OneSidedMaterial = std::variant<Diffuse, Dielectric, Conductor, RoughConductor, ThinDielectric, RoughDielectric, Plastic, RoughPlastic, Principled,
+                                      Blend, Mask, Null, NormalMap, BumpMap>;
 
 /// A BSDF. With `two_sided`, `back` is seen from below; without, `back` is empty.
 struct Material {

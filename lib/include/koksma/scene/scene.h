@@ -4,6 +4,7 @@
 #include <koksma/plan/effect.h>
 #include <koksma/scene/accelerator.h>
 #include <koksma/scene/bsdf/bsdf.h>
+#include <koksma/scene/bsdf/layered.h>
 #include <koksma/scene/camera.h>
 #include <koksma/scene/description.h>
 #include <koksma/scene/distribution.h>
@@ -11,6 +12,7 @@
 #include <koksma/scene/light_tree.h>
 #include <koksma/scene/texture.h>
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -22,10 +24,11 @@ struct MaterialSide {
     bool perfect = false, ggx = false;
     TextureRef reflectance, alpha_u, alpha_v;
     Vec3f transmittance{1.0f}, eta{1.0f}, k{0.0f};
+    std::int32_t layered = -1;  ///< index into Scene::layered's parts
 };
 
 /// Indices into Scene::sides. A two-sided material shows `back` from behind; the others show `front` to both sides
-/// (which, for all but the dielectric, is black from behind).
+/// (which, for all that do not transmit, is black from behind).
 struct MaterialSides {
     std::uint32_t front = 0, back = 0;
     bool two_sided = false;
@@ -85,6 +88,7 @@ struct Scene {
 
     std::vector<Texture> textures;
     std::vector<MaterialSide> sides;
+    std::shared_ptr<const LayeredParts> layered;  ///< null without layered materials
     std::vector<MaterialSides> materials;
 
     std::vector<GeometryRecord> geometries;

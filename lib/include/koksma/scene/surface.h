@@ -6,21 +6,6 @@
 
 namespace koksma {
 
-/// Where on its surface a point is, for textures.
-struct SurfaceUv {
-    float x = 0.0f, y = 0.0f;
-    std::uint32_t triangle = 0;  ///< index in Scene::triangles; with its barycentrics, only for mesh attributes
-    Vec2f barycentrics{};
-    SurfaceUv() = default;
-    SurfaceUv(float u, float v) : x(u), y(v) {}
-    SurfaceUv(Vec2f uv) : x(uv.x), y(uv.y) {}  // NOLINT: a pair of numbers is a place
-    SurfaceUv& operator=(Vec2f uv) noexcept {
-        x = uv.x;
-        y = uv.y;
-        return *this;
-    }
-};
-
 struct Surface {
     Vec3f p;             ///< in the plane of the triangle (a convex combination of its vertices) or on the shape
     Vec3f p_error;       ///< bound of the absolute error of each coordinate
@@ -28,7 +13,7 @@ struct Surface {
     Vec3f n;             ///< shading normal: interpolated where the mesh has normals
     SurfaceUv uv;        ///< only where an effect looks at it
     Vec3f dpdu{0.0f};    ///< direction in which u grows, up to its length; only for anisotropic materials, and zero without UVs
-    std::uint32_t geometry = 0;
+    std::uint32_t geometry = 0, primitive = 0;
 };
 
 namespace detail {
@@ -69,6 +54,7 @@ template <EffectSet kEffects>
     const TrianglePointOf<float> point = triangle_point(v0, v1, v2, b);
     Surface s;
     s.geometry = geometry;
+    s.primitive = triangle - g.first;
     s.p = point.p;
     s.p_error = point.p_error;
     s.ng = s.n = point.ng;
@@ -208,16 +194,37 @@ template <EffectSet kEffects>
     return ref.constant;
 }
 
+/// One side of a material with its textures looked up. Of layered sides the kind alone: layered.h computes them.
+template <EffectSet kEffects>
+[[nodiscard]] Bsdf bsdf_of(const Scene& scene, const MaterialSide& m, const SurfaceUv& uv) noexcept {
+    Bsdf b;
+    b.kind = m.kind;
+    b.reflectance = texture_value<kEffects>(scene, m.reflectance, uv);
+    if constexpr (kEffects.has(Effect::glossy) || kEffects.has(Effect::specular) || kEffects.has(Effect::dielectric)) {
+        b.perfect = m.perfect;
+        b.transmittance = m.transmittance;
+        b.eta = m.eta;
+        b.k = m.k;
+    }
+    if constexpr (kEffects.has(Effect::glossy))
+        if (m.kind == BsdfKind::rough_conductor) {
+            const float au = texture_value<kEffects>(scene, m.alpha_u, uv).x, av = texture_value<kEffects>(scene, m.alpha_v, uv).x;
+            b.facets = {au > 1e-4f ? au : 1e-4f, av > 1e-4f ? av : 1e-4f, m.ggx};
+        }
+    return b;
+}
+
 /// The BSDF seen from wo (world), textures looked up, in a frame that looks toward the side which wo is on.
 struct LocalBsdf {
     Bsdf bsdf;
-    Frame frame;  ///< turned over where a two-sided material is seen from behind
+    Frame frame;           ///< turned over where a two-sided material is seen from behind
+    LayeredPoint layered;  ///< of layered materials
 };
 
 template <EffectSet kEffects>
 [[nodiscard]] LocalBsdf bsdf_at(const Scene& scene, const Surface& s, Vec3f wo) noexcept {
     const MaterialSides& sides = scene.materials[scene.geometries[s.geometry].material];
-    LocalBsdf out{{}, Frame::from_normal(s.n)};
+    LocalBsdf out{{}, Frame::from_normal(s.n), {}};
     if constexpr (kEffects.has(Effect::anisotropic))
         if (sides.anisotropic) out.frame = frame_along(s.n, s.dpdu);
     std::uint32_t side_index = sides.front;
@@ -227,21 +234,29 @@ template <EffectSet kEffects>
             out.frame.n = -out.frame.n;
             out.frame.t = -out.frame.t;
         }
-    const MaterialSide& m = scene.sides[side_index];
-    out.bsdf.kind = m.kind;
-    out.bsdf.reflectance = texture_value<kEffects>(scene, m.reflectance, s.uv);
-    if constexpr (kEffects.has(Effect::glossy) || kEffects.has(Effect::specular) || kEffects.has(Effect::dielectric)) {
-        out.bsdf.perfect = m.perfect;
-        out.bsdf.transmittance = m.transmittance;
-        out.bsdf.eta = m.eta;
-        out.bsdf.k = m.k;
-    }
-    if constexpr (kEffects.has(Effect::glossy))
-        if (m.kind == BsdfKind::rough_conductor) {
-            const float au = texture_value<kEffects>(scene, m.alpha_u, s.uv).x, av = texture_value<kEffects>(scene, m.alpha_v, s.uv).x;
-            out.bsdf.facets = {au > 1e-4f ? au : 1e-4f, av > 1e-4f ? av : 1e-4f, m.ggx};
-        }
+    out.bsdf = bsdf_of<kEffects>(scene, scene.sides[side_index], s.uv);
+    if constexpr (kEffects.has(Effect::layered)) out.layered = {side_index, s.uv, s.n, s.geometry, s.primitive};
     return out;
+}
+
+/// As eval_bsdf and sample_bsdf, of any material.
+template <EffectSet kEffects>
+[[nodiscard]] BsdfValue eval_local(const Scene& scene, const LocalBsdf& local, Vec3f wo_local, Vec3f wi_local) noexcept {
+    if constexpr (kEffects.has(Effect::layered))
+        if (is_layered(local.bsdf)) return eval_layered(scene, local.layered, wo_local, wi_local);
+    return eval_bsdf<kEffects>(local.bsdf, wo_local, wi_local);
+}
+template <EffectSet kEffects>
+[[nodiscard]] BsdfSample sample_local(const Scene& scene, const LocalBsdf& local, Vec3f wo_local, float u_lobe, Vec2f u) noexcept {
+    if constexpr (kEffects.has(Effect::layered))
+        if (is_layered(local.bsdf)) return sample_layered(scene, local.layered, wo_local, u_lobe, u);
+    return sample_bsdf<kEffects>(local.bsdf, wo_local, u_lobe, u);
+}
+/// The normal by which lights are chosen for a point.
+template <EffectSet kEffects>
+[[nodiscard]] Vec3f lit_normal_of(const LocalBsdf& local, Vec3f wo_local) noexcept {
+    if constexpr (kEffects.has(Effect::layered)) return lit_normal(local.bsdf, local.frame.n, wo_local.z);
+    return local.frame.n;
 }
 
 }  // namespace koksma

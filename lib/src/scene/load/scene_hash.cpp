@@ -129,6 +129,36 @@ private:
         add(r.alpha_u), add(r.alpha_v);
     }
 
+    void add(const ThinDielectric& d) { h_.floats(d.int_ior, d.ext_ior), h_.vec(d.specular_reflectance), h_.vec(d.specular_transmittance); }
+    void add(const RoughDielectric& r) {
+        h_.floats(r.int_ior, r.ext_ior), h_.word(static_cast<std::uint64_t>(r.distribution));
+        add(r.alpha_u), add(r.alpha_v), add(r.specular_reflectance), add(r.specular_transmittance);
+    }
+    void add(const Plastic& p) {
+        h_.floats(p.int_ior, p.ext_ior), h_.word(p.nonlinear);
+        add(p.diffuse_reflectance), add(p.specular_reflectance);
+    }
+    void add(const RoughPlastic& p) {
+        h_.floats(p.int_ior, p.ext_ior), h_.floats(p.alpha, 0.0f), h_.word(p.nonlinear), h_.word(static_cast<std::uint64_t>(p.distribution));
+        add(p.diffuse_reflectance), add(p.specular_reflectance);
+    }
+    void add(const Principled& p) {
+        h_.floats(p.eta, 0.0f);  // sampling rates change no expected image
+        for (const Texture* t : {&p.base_color, &p.roughness, &p.anisotropic, &p.metallic, &p.spec_trans, &p.spec_tint, &p.sheen, &p.sheen_tint, &p.flatness,
+                                 &p.clearcoat, &p.clearcoat_gloss})
+            add(*t);
+    }
+    void add(const Bending& b) { h_.word(b.flip_invalid_normals), h_.word(b.use_shadowing_function), add(b.nested); }
+    void add(const NormalMap& m) { add(m.normals), add(m.bending); }
+    void add(const BumpMap& m) { h_.floats(m.scale, 0.0f), add(m.height), add(m.bending); }
+    void add(const Blend& b) { add(b.weight), add(b.nested); }
+    void add(const Mask& m) { add(m.opacity), add(m.nested); }
+    void add(const Null&) {}
+    void add(const std::vector<Material>& nested) {
+        h_.word(nested.size());
+        for (const Material& m : nested) add(m);
+    }
+
     void add(const SpotLight& s) {
         h_.matrix<4>(s.to_world), h_.vec(s.intensity), h_.number(s.cutoff_degrees), h_.number(s.beam_degrees);
         h_.word(s.texture.has_value());

@@ -18,7 +18,18 @@
 #ifdef KOKSMA_ORDINARY
 namespace koksma {
 
-enum class BsdfKind : std::int32_t { none, diffuse, dielectric, conductor, rough_conductor };
+enum class BsdfKind : std::int32_t {
+    none,
+    diffuse,
+    dielectric,
+    conductor,
+    rough_conductor,
+    thin_dielectric,
+    // Of several lobes or parts, computed by layered.h and not here. From here on in this order:
+    layered,          ///< smooth lobes on the side of wo, and any delta lobes
+    layered_through,  ///< smooth lobes on both sides
+    layered_delta,    ///< delta lobes only
+};
 
 }  // namespace koksma
 #endif
@@ -56,7 +67,7 @@ constexpr void assign(MaskOf<Real> m, BsdfSampleOf<Real>& dst, const BsdfSampleO
     dst.delta = (m && src.delta) || (!m && dst.delta);
 }
 
-/// f(wo, wi) |cos(wi)| and the density with which sample_bsdf would draw wi; both zero for delta BSDFs.
+/// f(wo, wi) |cos(wi)| of the smooth lobes and the density with which sample_bsdf would draw wi from them; both zero for delta BSDFs.
 template <class Real>
 struct BsdfValueOf {
     Vec3<Real> f_cos{};
@@ -76,7 +87,27 @@ template <class Real>
 /// True where light sampling can contribute.
 template <class Real>
 [[nodiscard]] constexpr MaskOf<Real> has_smooth_lobe(const BsdfOf<Real>& b) noexcept {
-    return is(b, BsdfKind::diffuse) || is(b, BsdfKind::rough_conductor);
+    return is(b, BsdfKind::diffuse) || is(b, BsdfKind::rough_conductor) || is(b, BsdfKind::layered) || is(b, BsdfKind::layered_through);
+}
+
+template <class Real>
+[[nodiscard]] constexpr MaskOf<Real> is_layered(const BsdfOf<Real>& b) noexcept {
+    return is(b, BsdfKind::layered) || is(b, BsdfKind::layered_through) || is(b, BsdfKind::layered_delta);
+}
+
+/// True where sampling looks at its `u_lobe`.
+template <class Real>
+[[nodiscard]] constexpr MaskOf<Real> chooses_lobe(const BsdfOf<Real>& b) noexcept {
+    return is(b, BsdfKind::dielectric) || is(b, BsdfKind::thin_dielectric) || is_layered(b);
+}
+
+/// The normal of the side from which light counts; zero where both count.
+/// @param n     shading normal
+/// @param wo_z  cosine between n and wo
+template <class Real>
+[[nodiscard]] constexpr Vec3<Real> lit_normal(const BsdfOf<Real>& b, Vec3<Real> n, Real wo_z) noexcept {
+    const Real sign = select(is(b, BsdfKind::layered) && wo_z < Real(0.0f), Real(-1.0f), Real(1.0f));
+    return n * select(is(b, BsdfKind::layered_through), Real(0.0f), sign);
 }
 
 template <class Real>
@@ -105,7 +136,7 @@ template <EffectSet kEffects, class Real>
     return out;
 }
 
-/// @param u_lobe  chooses reflection or transmission (dielectrics only)
+/// @param u_lobe  chooses reflection or transmission (where chooses_lobe)
 /// @param u       direction (BSDFs with a smooth lobe only)
 template <EffectSet kEffects, class Real>
 [[nodiscard]] BsdfSampleOf<Real> sample_bsdf(const BsdfOf<Real>& b, Vec3<Real> wo, Real u_lobe, Vec2<Real> u) noexcept {
@@ -129,6 +160,15 @@ template <EffectSet kEffects, class Real>
             const Vec3<Real> refracted = normalize(Vec3<Real>{-f.eta_ti * wo.x, -f.eta_ti * wo.y, f.cos_t});
             assign<Real>(m && !reflects, out, Sample{refracted, b.transmittance * (f.eta_ti * f.eta_ti), Real(1.0f) - f.reflectance, Real(1.0f) / f.eta_ti, m});
             assign<Real>(m && reflects, out, Sample{{-wo.x, -wo.y, wo.z}, b.reflectance, f.reflectance, Real(1.0f), m});
+        }
+    if constexpr (kEffects.has(Effect::dielectric))
+        if (const auto m = is(b, BsdfKind::thin_dielectric) && wo.z != Real(0.0f); any(m)) {
+            // All that is reflected between the two interfaces: R + T R T + T R^3 T + ... = 2 R / (1 + R). Directions stay.
+            const Real once = fresnel_dielectric(abs(wo.z), b.eta.x).reflectance;
+            const Real r = select(once < Real(1.0f), Real(2.0f) * once / (Real(1.0f) + once), Real(1.0f));
+            const auto reflects = u_lobe < r;
+            assign<Real>(m && !reflects, out, Sample{-wo, b.transmittance, Real(1.0f) - r, Real(1.0f), m});
+            assign<Real>(m && reflects, out, Sample{{-wo.x, -wo.y, wo.z}, b.reflectance, r, Real(1.0f), m});
         }
     if constexpr (kEffects.has(Effect::glossy))
         if (const auto m = above && is(b, BsdfKind::rough_conductor); any(m)) {
