@@ -205,6 +205,7 @@ void compile_lights(Scene& scene, glm::dvec3 origin) {
 
     for (std::size_t i = 0; i < d.shapes.size(); ++i) {
         if (!d.shapes[i].emission) continue;
+        const Caller caller(scene, d.shapes[i].emission->where);
         check_radiance(d.shapes[i].emission->radiance, d.shapes[i].emission->where);
         Light light;
         light.geometry = static_cast<std::uint32_t>(i);
@@ -222,6 +223,7 @@ void compile_lights(Scene& scene, glm::dvec3 origin) {
         scene.lights.push_back(std::move(light));
     }
     for (const PointLight& p : d.point_lights) {
+        const Caller caller(scene, p.where);
         check_radiance(p.intensity, p.where);
         Light light;
         light.kind = LightKind::point;
@@ -234,6 +236,7 @@ void compile_lights(Scene& scene, glm::dvec3 origin) {
     }
     for (const DeltaLight& source : d.delta_lights) {
         DeltaLightCompiler compiler{scene, origin};
+        const Caller caller(scene, std::visit([](const auto& s) -> const SourceLocation& { return s.where; }, source));
         std::visit(compiler, source);
         scene.effects |= {Effect::point_light};
         radiances.push_back(compiler.radiance);
@@ -241,6 +244,7 @@ void compile_lights(Scene& scene, glm::dvec3 origin) {
         scene.lights.push_back(std::move(compiler.light));
     }
     if (d.environment) {
+        const Caller caller(scene, std::visit([](const auto& e) -> const SourceLocation& { return e.where; }, *d.environment));
         Light light;
         light.kind = LightKind::environment;
         if (const auto* map = std::get_if<MapEnvironment>(&*d.environment)) {
