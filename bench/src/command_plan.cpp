@@ -44,6 +44,13 @@ void print_bounces(const DimensionLayout& layout) {
     }
 }
 
+nlohmann::ordered_json origins_json(const SceneSetup& setup) {
+    nlohmann::ordered_json out = nlohmann::ordered_json::object();
+    for (const auto& [effect, where] : setup.scene.called_for)
+        if (setup.plan.effects.has(effect)) out[std::string(name(effect))] = where.text();
+    return out;
+}
+
 nlohmann::ordered_json plan_json(const SceneSetup& setup, std::uint32_t tail) {
     nlohmann::ordered_json slots = nlohmann::ordered_json::array();
     const auto add = [&](SlotRun run, int bounce) {
@@ -53,6 +60,7 @@ nlohmann::ordered_json plan_json(const SceneSetup& setup, std::uint32_t tail) {
     for (std::size_t b = 0; b < setup.plan.layout.bounce_count(); ++b) add(setup.plan.layout.bounce(b), static_cast<int>(b));
     return {{"scene", setup.scene.description.file},
             {"effects", setup.plan.effects.names()},
+            {"called_for", origins_json(setup)},
             {"kernel", choose_kernel(setup.plan.effects).name},
             {"sampler", setup.sampler->name()},
             {"dimensions", setup.plan.layout.dimensions()},
@@ -75,9 +83,12 @@ int run_plan(const PlanCommand& command, const Registry& registry) {
     for (const std::string& e : plan.effects.names()) effects += (effects.empty() ? "" : ", ") + e;
     std::size_t triangles = setup.scene.triangles.size();
     fmt::print("scene          {}\n", setup.scene.description.file);
-    fmt::print("geometry       {} triangles, {} spheres, {} disks; {} lights\n", triangles, setup.scene.spheres.size(), setup.scene.disks.size(), setup.scene.lights.size());
+    fmt::print("geometry       {} triangles, {} spheres, {} disks; {} lights, {} media\n", triangles, setup.scene.spheres.size(), setup.scene.disks.size(), setup.scene.lights.size(),
+               plan.effects.has(Effect::medium) ? setup.scene.media.size() : 0);
     fmt::print("max_depth      {}, rr_depth {}\n", plan.integrator.max_depth, plan.integrator.rr_depth);
     fmt::print("effects        {}\n", effects.empty() ? "none" : effects);
+    for (const auto& [effect, where] : setup.scene.called_for)
+        if (plan.effects.has(effect)) fmt::print("  {:<14} {}\n", name(effect), where.text());
     fmt::print("kernel         {} (admissible:", choose_kernel(plan.effects).name);
     for (const Kernel& k : kernels())
         if (k.effects.contains(plan.effects)) fmt::print(" {}", k.name);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kBlock = Draws::kCapacity, kBatch = detail::kBatchCapacity;
 
-constexpr std::array<Kernel, 8> kKernels{{
+constexpr std::array<Kernel, 9> kKernels{{
     {"batch/diffuse", detail::kDiffuseEffects, kBatch, detail::make_batch_diffuse},
     {"batch/specular", detail::kSpecularEffects, kBatch, detail::make_batch_specular},
     {"batch/diffuse-textured", detail::kDiffuseTexturedEffects, kBatch, detail::make_batch_diffuse_textured},
@@ -23,6 +23,7 @@ constexpr std::array<Kernel, 8> kKernels{{
     {"reference/diffuse", detail::kDiffuseEffects, kBlock, detail::make_reference_diffuse},
     {"reference/specular", detail::kSpecularEffects, kBlock, detail::make_reference_specular},
     {"reference/diffuse-textured", detail::kDiffuseTexturedEffects, kBlock, detail::make_reference_diffuse_textured},
+    {"reference/surfaces", detail::kSurfaceEffects, kBlock, detail::make_reference_surfaces},
     {"reference/all", EffectSet::all(), kBlock, detail::make_reference_all},
 }};
 

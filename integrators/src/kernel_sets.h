@@ -12,13 +12,17 @@ inline constexpr EffectSet kDiffuseTexturedEffects =
 inline constexpr EffectSet kSpecularEffects =
     kDiffuseEffects | EffectSet{Effect::analytic_shape, Effect::sphere_light, Effect::specular, Effect::dielectric, Effect::lobe};
 
+/// Paths that are bounces on surfaces and nothing else.
+inline constexpr EffectSet kSurfaceEffects =
+    EffectSet::all().without(Effect::medium).without(Effect::heterogeneous).without(Effect::null_boundary).without(Effect::mask);
 /// The batch kernel looks up textures by (u, v) alone.
-inline constexpr EffectSet kBatchAllEffects = EffectSet::all().without(Effect::mesh_attribute);
+inline constexpr EffectSet kBatchAllEffects = kSurfaceEffects.without(Effect::mesh_attribute);
 
 // One function a variant, one source file each, so that they compile in parallel.
 std::unique_ptr<Tracer> make_reference_diffuse(const TraceJob& job);
 std::unique_ptr<Tracer> make_reference_specular(const TraceJob& job);
 std::unique_ptr<Tracer> make_reference_diffuse_textured(const TraceJob& job);
+std::unique_ptr<Tracer> make_reference_surfaces(const TraceJob& job);
 std::unique_ptr<Tracer> make_reference_all(const TraceJob& job);
 std::unique_ptr<Tracer> make_batch_diffuse(const TraceJob& job);
 std::unique_ptr<Tracer> make_batch_specular(const TraceJob& job);

@@ -1,7 +1,7 @@
 #include <koksma/film/film.h>
 #include <koksma/integrators/float_mode.h>
-#include <koksma/integrators/path.h>
 #include <koksma/integrators/replay.h>
+#include <koksma/integrators/volume_path.h>
 
 #include <fmt/format.h>
 
@@ -28,6 +28,12 @@ public:
         line("vertex {:<4} geometry {} ({}) primitive {}", vertex_++, hit.geometry, shape.where.text(), hit.primitive);
         line("            p {} +- {}", text(s.p), text(s.p_error));
         line("            ng {} n {} uv ({:.9g}, {:.9g}) cos(wo) {:.9g}", text(s.ng), text(s.n), s.uv.x, s.uv.y, dot(wo, s.n));
+        line("            beta {}", text(beta));
+    }
+    void passed(Vec3f beta) { line("  passes on -> beta {}", text(beta)); }
+    void collision(Vec3f p, Vec3f wo, Vec3f beta) {
+        line("vertex {:<4} in a medium", vertex_++);
+        line("            p {} wo {}", text(p), text(wo));
         line("            beta {}", text(beta));
     }
     void escaped(Vec3f d, Vec3f contribution, float weight) {
@@ -80,7 +86,7 @@ std::string replay(const Scene& scene, const RenderPlan& plan, const SampleSourc
     draws.select(0);
     RayCounts rays;
     Teller teller(scene);
-    const Vec3f radiance = trace_path<EffectSet::all()>(scene, plan.integrator, draws, rays, teller);
+    const Vec3f radiance = trace_volume_path<EffectSet::all()>(scene, plan, draws, rays, teller);
     for (std::size_t b = 0; b < plan.layout.bounce_count() && b < rays.closest; ++b)
         tell_numbers(out, fmt::format("u bounce {}", b), source, plan.layout.bounce(b), id);
     out += teller.take();

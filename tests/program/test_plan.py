@@ -14,7 +14,7 @@ class Plan(ProgramTest):
 
     def test_json_lists_every_slot_once(self):
         plan = self.succeeds("plan", "scene.xml", "--max-depth", "4", "--json").json()
-        self.assertEqual(set(plan), {"scene", "effects", "kernel", "sampler", "dimensions", "tail_dimension", "tail_bounce", "slots"})
+        self.assertEqual(set(plan), {"scene", "effects", "called_for", "kernel", "sampler", "dimensions", "tail_dimension", "tail_bounce", "slots"})
         dimension = 0
         for slot in plan["slots"]:
             self.assertEqual(set(slot), {"role", "bounce", "dimension", "arity"})

@@ -1,7 +1,7 @@
 #pragma once
 // The reference kernel as a tracer: blocks of 64 samples, one path after the other.
 
-#include <koksma/integrators/path.h>
+#include <koksma/integrators/volume_path.h>
 
 #include "../kernel_sets.h"
 
@@ -17,7 +17,7 @@ struct HashObserver : NoObserver {
 template <EffectSet kEffects>
 class ReferenceTracer final : public Tracer {
 public:
-    explicit ReferenceTracer(const TraceJob& job) : scene_(job.scene), settings_(job.plan.integrator), draws_(job.plan, job.source) {}
+    explicit ReferenceTracer(const TraceJob& job) : scene_(job.scene), plan_(job.plan), draws_(job.plan, job.source) {}
 
     void trace(std::span<const SampleId> ids, std::span<Vec3f> radiance, std::span<std::uint64_t> hashes) noexcept override {
         constexpr std::uint64_t kTimedEvery = 16;  // blocks: the fills of one in so many are done again and timed
@@ -27,10 +27,10 @@ public:
             draws_.select(i);
             if (hashes.empty()) {
                 NoObserver nobody;
-                radiance[i] = trace_path<kEffects>(scene_, settings_, draws_, stats_.rays, nobody);
+                radiance[i] = trace_one(nobody);
             } else {
                 HashObserver observer;
-                radiance[i] = trace_path<kEffects>(scene_, settings_, draws_, stats_.rays, observer);
+                radiance[i] = trace_one(observer);
                 hashes[i] = observer.hash;
             }
         }
@@ -44,8 +44,16 @@ public:
     }
 
 private:
+    template <class Observer>
+    [[nodiscard]] Vec3f trace_one(Observer& observer) noexcept {
+        if constexpr (kEffects.has(Effect::medium))
+            return trace_volume_path<kEffects>(scene_, plan_, draws_, stats_.rays, observer);
+        else
+            return trace_path<kEffects>(scene_, plan_.integrator, draws_, stats_.rays, observer);
+    }
+
     const Scene& scene_;
-    const IntegratorSettings& settings_;
+    const RenderPlan& plan_;
     Draws draws_;
     std::uint64_t block_ = 0;
 };

@@ -115,10 +115,11 @@ Scene compile(const SceneDescription& description) {
         scene.film.crop_height = scene.film.height;
     }
     scene.camera = compile_camera(description.camera, scene.film);
-    if (scene.camera.aperture_radius > 0.0f) scene.effects |= {Effect::lens};
+    if (scene.camera.aperture_radius > 0.0f) scene.call_for({Effect::lens}, description.camera.where);
     const glm::dvec3 origin(description.camera.to_world[3]);
     detail::compile_materials(scene);
     detail::compile_shapes(scene, origin);
+    detail::compile_media(scene, origin);
     build_accelerator(scene);
     detail::compile_lights(scene, origin);
     return scene;

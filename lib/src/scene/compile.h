@@ -5,12 +5,29 @@
 
 namespace koksma::detail {
 
+/// Keeps who called first for the effects that are added while it lives.
+class Caller {
+public:
+    Caller(Scene& scene, const SourceLocation& where) : scene_(scene), where_(where), before_(scene.effects) {}
+    ~Caller() { scene_.call_for(EffectSet(scene_.effects.bits & ~before_.bits), where_); }
+    Caller(const Caller&) = delete;
+    Caller& operator=(const Caller&) = delete;
+
+private:
+    Scene& scene_;
+    const SourceLocation& where_;
+    EffectSet before_;
+};
+
 /// Fills sides and materials; adds the effects of the materials that shapes use.
 void compile_materials(Scene& scene);
 
 /// Fills geometry arrays, one GeometryRecord per shape, relative to the camera; no BVH yet.
 /// @param origin  world position of the camera
 void compile_shapes(Scene& scene, glm::dvec3 origin);
+
+/// Fills media and the references to them. Needs the geometry's records.
+void compile_media(Scene& scene, glm::dvec3 origin);
 
 /// Fills lights, their choice by power, and the environment. Needs the geometry.
 void compile_lights(Scene& scene, glm::dvec3 origin);

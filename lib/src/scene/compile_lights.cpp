@@ -101,19 +101,31 @@ float bounding_radius(const Scene& scene) {
 /// Lights, of meshes triangles, from which on a tree chooses (docs/design.md, "Many lights", has the measurement).
 constexpr std::size_t kManyLights = 16;
 
-/// Share of the lights at infinity where there is a tree beside them.
+/// Share of the lights at infinity where there are others beside them.
 constexpr float kDistantShare = 0.5f;
+
+bool is_distant(const Light& light) { return light.kind == LightKind::environment || light.kind == LightKind::directional; }
+
+/// What lights at infinity give grows with the ball around the scene, most of which may be empty. Their powers are scaled to their share, so
+/// that neither kind is starved: no kind has more than twice the variance that it would have alone.
+std::vector<double> shared_out(const Scene& scene, std::vector<double> powers) {
+    double distant = 0.0, near = 0.0;
+    for (std::size_t i = 0; i < powers.size(); ++i) (is_distant(scene.lights[i]) ? distant : near) += powers[i];
+    if (!(distant > 0.0 && near > 0.0)) return powers;
+    for (std::size_t i = 0; i < powers.size(); ++i)
+        powers[i] *= is_distant(scene.lights[i]) ? double{kDistantShare} / distant : (1.0 - double{kDistantShare}) / near;
+    return powers;
+}
 
 void compile_light_tree(Scene& scene, std::span<const double> radiances, std::span<const double> powers) {
     const std::vector<LightLeaf> leaves = light_leaves(scene, radiances);
     if (leaves.size() < kManyLights) return;
     scene.light_tree = build_light_tree(leaves, scene.lights.size());
     double sum = 0.0;
-    const auto is_distant = [&](std::size_t i) { return scene.lights[i].kind == LightKind::environment || scene.lights[i].kind == LightKind::directional; };
     for (std::size_t i = 0; i < scene.lights.size(); ++i)
-        if (is_distant(i)) sum += powers[i];
+        if (is_distant(scene.lights[i])) sum += powers[i];
     for (std::size_t i = 0; i < scene.lights.size(); ++i)
-        if (is_distant(i) && powers[i] > 0.0) scene.light_tree.distant.push_back({static_cast<std::uint32_t>(i), static_cast<float>(powers[i] / sum)});
+        if (is_distant(scene.lights[i]) && powers[i] > 0.0) scene.light_tree.distant.push_back({static_cast<std::uint32_t>(i), static_cast<float>(powers[i] / sum)});
     if (sum > 0.0) scene.light_tree.distant_share = kDistantShare;
     scene.effects |= {Effect::light_choice, Effect::many_lights};
 }
@@ -205,6 +217,7 @@ void compile_lights(Scene& scene, glm::dvec3 origin) {
 
     for (std::size_t i = 0; i < d.shapes.size(); ++i) {
         if (!d.shapes[i].emission) continue;
+        const Caller caller(scene, d.shapes[i].emission->where);
         check_radiance(d.shapes[i].emission->radiance, d.shapes[i].emission->where);
         Light light;
         light.geometry = static_cast<std::uint32_t>(i);
@@ -222,6 +235,7 @@ void compile_lights(Scene& scene, glm::dvec3 origin) {
         scene.lights.push_back(std::move(light));
     }
     for (const PointLight& p : d.point_lights) {
+        const Caller caller(scene, p.where);
         check_radiance(p.intensity, p.where);
         Light light;
         light.kind = LightKind::point;
@@ -234,6 +248,7 @@ void compile_lights(Scene& scene, glm::dvec3 origin) {
     }
     for (const DeltaLight& source : d.delta_lights) {
         DeltaLightCompiler compiler{scene, origin};
+        const Caller caller(scene, std::visit([](const auto& s) -> const SourceLocation& { return s.where; }, source));
         std::visit(compiler, source);
         scene.effects |= {Effect::point_light};
         radiances.push_back(compiler.radiance);
@@ -241,6 +256,7 @@ void compile_lights(Scene& scene, glm::dvec3 origin) {
         scene.lights.push_back(std::move(compiler.light));
     }
     if (d.environment) {
+        const Caller caller(scene, std::visit([](const auto& e) -> const SourceLocation& { return e.where; }, *d.environment));
         Light light;
         light.kind = LightKind::environment;
         if (const auto* map = std::get_if<MapEnvironment>(&*d.environment)) {
@@ -262,7 +278,7 @@ void compile_lights(Scene& scene, glm::dvec3 origin) {
     // A light whose luminance is zero in spite of some colour still needs a chance; a black one gets none.
     for (std::size_t i = 0; i < powers.size(); ++i)
         if (!(powers[i] > 0.0) && max_component(scene.lights[i].radiance.constant) > 0.0f) powers[i] = radiances[i] = 1e-30;
-    scene.light_choice = DiscreteDistribution(powers);
+    scene.light_choice = DiscreteDistribution(shared_out(scene, powers));
     if (scene.lights.size() > 1) scene.effects |= {Effect::light_choice};
     compile_light_tree(scene, radiances, powers);
 }

@@ -40,6 +40,12 @@ float mean_of(const Texture& t) {
     return (m.x + m.y + m.z) / 3.0f;
 }
 
+/// True where a part of the light passes straight on.
+bool lets_pass(const Material& m) {
+    if (const auto* blend = std::get_if<Blend>(&m.front)) return lets_pass(blend->nested.at(0)) || lets_pass(blend->nested.at(1));
+    return std::holds_alternative<Mask>(m.front) || std::holds_alternative<Null>(m.front) || std::holds_alternative<ThinDielectric>(m.front);
+}
+
 struct SideCompiler {
     Scene& scene;
     std::vector<LayeredPart>& parts;
@@ -66,7 +72,8 @@ struct SideCompiler {
         side.kind = kind;
         side.layered = static_cast<std::int32_t>(parts.size());
         parts.push_back(std::move(part));
-        scene.effects |= effects | EffectSet{Effect::layered, Effect::lobe};
+        scene.effects |= effects | EffectSet{Effect::layered};
+        if (!std::holds_alternative<NullPart>(parts.back())) scene.effects |= {Effect::lobe};
     }
     [[nodiscard]] BsdfKind kind_of(std::uint32_t nested) const { return scene.sides[nested].kind; }
     [[nodiscard]] bool is_delta(std::uint32_t nested) const {
@@ -95,6 +102,7 @@ struct SideCompiler {
         side.reflectance.constant = d.specular_reflectance;
         side.transmittance = d.specular_transmittance;
         scene.effects |= {Effect::dielectric, Effect::lobe};
+        if (kind == BsdfKind::thin_dielectric) scene.effects |= {Effect::null_boundary, Effect::mask};
     }
     void operator()(const Dielectric& d) { smooth_dielectric(d, BsdfKind::dielectric); }
     void operator()(const ThinDielectric& d) { smooth_dielectric(d, BsdfKind::thin_dielectric); }
@@ -188,14 +196,15 @@ struct SideCompiler {
         part.first = add_nested(scene, parts, b.nested.at(0), anisotropic);
         part.second = add_nested(scene, parts, b.nested.at(1), anisotropic);
         layered(part, combined({part.first, part.second}), {});
+        if (lets_pass(b.nested[0]) || lets_pass(b.nested[1])) scene.effects |= {Effect::mask};
     }
     void operator()(const Mask& m) {
         MaskPart part;
         part.opacity = texture_ref(scene, m.opacity);
         part.nested = add_nested(scene, parts, m.nested.at(0), anisotropic);
-        layered(part, combined({part.nested}), {Effect::specular});
+        layered(part, combined({part.nested}), {Effect::specular, Effect::null_boundary, Effect::mask});
     }
-    void operator()(const Null&) { layered(NullPart{}, BsdfKind::layered_delta, {Effect::specular}); }
+    void operator()(const Null&) { layered(NullPart{}, BsdfKind::layered_delta, {Effect::specular, Effect::null_boundary}); }
 };
 
 std::uint32_t add_side(Scene& scene, std::vector<LayeredPart>& parts, const OneSidedMaterial& material, bool& anisotropic) {
@@ -248,6 +257,7 @@ void compile_materials(Scene& scene) {
         MaterialSides sides;
         if (used[i]) {
             const std::size_t first_texture = scene.textures.size();
+            const Caller caller(scene, m.where);
             sides.front = sides.back = add_side(scene, parts, m.front, sides.anisotropic);
             if (m.back) sides.back = add_side(scene, parts, *m.back, sides.anisotropic);
             if (m.two_sided && (scene.sides[sides.front].layered >= 0 || scene.sides[sides.back].layered >= 0)) {

@@ -164,7 +164,10 @@ private:
 }  // namespace
 
 void compile_shapes(Scene& scene, glm::dvec3 origin) {
-    for (const Shape& shape : scene.description.shapes) std::visit(ShapeCompiler(scene, shape, origin), shape.geometry);
+    for (const Shape& shape : scene.description.shapes) {
+        const Caller caller(scene, shape.where);
+        std::visit(ShapeCompiler(scene, shape, origin), shape.geometry);
+    }
     // Arrays are parallel where they are used: pad the shorter ones to the vertex count.
     if (!scene.uvs.empty()) scene.uvs.resize(scene.positions.size());
     if (!scene.normals.empty()) scene.normals.resize(scene.positions.size(), Vec3f(0.0f));

@@ -1,4 +1,5 @@
 #include <koksma/scene/bsdf/layered_parts.h>
+#include <koksma/scene/bsdf/passage.h>
 #include <koksma/scene/scene.h>
 #include <koksma/scene/surface.h>
 #include <koksma/scene/texture_gradient.h>
@@ -200,6 +201,13 @@ struct Sampling {
     Vec3f wo;
     float u_lobe;
     Vec2f u;
+    bool stopped = false;  ///< not what passes straight on
+
+    /// Of another side. @param v  its number for the choice of a lobe
+    [[nodiscard]] BsdfSample of(std::uint32_t side, float v) const noexcept {
+        const LayeredPoint there = elsewhere(at, side);
+        return stopped ? sample_stopped(scene, there, wo, v, u) : sample_layered(scene, there, wo, v, u);
+    }
 
     template <class Part>
     BsdfSample operator()(const Part& part) const noexcept requires kIsBsdf<Part> {
@@ -217,10 +225,10 @@ struct Sampling {
     }
     BsdfSample operator()(const BlendPart& part) const noexcept {
         const float w = unit(number(scene, part.weight, at.uv));
-        const bool second = u_lobe < w;
+        const float chance = stopped ? stopped_share(part, w) : w;  // of the second
+        const bool second = u_lobe < chance;
         const float probability = second ? w : 1.0f - w;
-        BsdfSample s = sample_layered(scene, elsewhere(at, second ? part.second : part.first), wo,
-                                      second ? stretched(u_lobe, 0.0f, w) : stretched(u_lobe, w, 1.0f - w), u);
+        BsdfSample s = of(second ? part.second : part.first, second ? stretched(u_lobe, 0.0f, chance) : stretched(u_lobe, chance, 1.0f - chance));
         if (!(s.pdf_w > 0.0f)) return {};
         if (s.delta) {
             s.pdf_w *= probability;
@@ -233,10 +241,16 @@ struct Sampling {
         s.pdf_w = all;
         return s;
     }
+    /// Share of the second among the samples of a blend that do not pass.
+    [[nodiscard]] float stopped_share(const BlendPart& part, float w) const noexcept {
+        const float a = (1.0f - w) * (1.0f - passage_at(scene, elsewhere(at, part.first), wo).probability);
+        const float b = w * (1.0f - passage_at(scene, elsewhere(at, part.second), wo).probability);
+        return a + b > 0.0f ? b / (a + b) : w;
+    }
     BsdfSample operator()(const MaskPart& part) const noexcept {
         const float opacity = unit(number(scene, part.opacity, at.uv));
-        if (!(u_lobe < opacity)) return {-wo, Vec3f(1.0f), 1.0f - opacity, 1.0f, true};
-        BsdfSample s = sample_layered(scene, elsewhere(at, part.nested), wo, stretched(u_lobe, 0.0f, opacity), u);
+        if (!stopped && !(u_lobe < opacity)) return {-wo, Vec3f(1.0f), 1.0f - opacity, 1.0f, true};
+        BsdfSample s = of(part.nested, stopped ? u_lobe : stretched(u_lobe, 0.0f, opacity));
         s.pdf_w *= opacity;
         return s;
     }
@@ -261,6 +275,13 @@ BsdfSample sample_layered(const Scene& scene, const LayeredPoint& at, Vec3f wo, 
     const MaterialSide& side = scene.sides[at.side];
     if (side.layered < 0) return sample_bsdf<kAll>(bsdf_of<kAll>(scene, side, at.uv), wo, u_lobe, u);
     return std::visit(Sampling{scene, at, wo, u_lobe, u}, scene.layered->parts[static_cast<std::size_t>(side.layered)]);
+}
+
+BsdfSample sample_stopped(const Scene& scene, const LayeredPoint& at, Vec3f wo, float u_lobe, Vec2f u) noexcept {
+    const MaterialSide& side = scene.sides[at.side];
+    // Thin glass reflects below its reflectance.
+    if (side.layered < 0) return sample_bsdf<kAll>(bsdf_of<kAll>(scene, side, at.uv), wo, side.kind == BsdfKind::thin_dielectric ? 0.0f : u_lobe, u);
+    return std::visit(Sampling{scene, at, wo, u_lobe, u, true}, scene.layered->parts[static_cast<std::size_t>(side.layered)]);
 }
 
 }  // namespace koksma

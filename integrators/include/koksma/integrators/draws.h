@@ -63,6 +63,9 @@ public:
     [[nodiscard]] Vec2f light_position(std::size_t b) noexcept { return get_2d(b, SlotRole::light_position, &BounceSlots::light_position); }
     [[nodiscard]] float lobe(std::size_t b) noexcept { return get_1d(b, SlotRole::lobe, &BounceSlots::lobe); }
     [[nodiscard]] Vec2f direction(std::size_t b) noexcept { return get_2d(b, SlotRole::direction, &BounceSlots::direction); }
+    [[nodiscard]] float distance(std::size_t b) noexcept { return get_1d(b, SlotRole::distance, &BounceSlots::distance); }
+    [[nodiscard]] float collision(std::size_t b) noexcept { return get_1d(b, SlotRole::collision, &BounceSlots::collision); }
+    [[nodiscard]] float passage(std::size_t b) noexcept { return get_1d(b, SlotRole::passage, &BounceSlots::passage); }
     [[nodiscard]] float roulette(std::size_t b) noexcept { return get_1d(b, SlotRole::roulette, &BounceSlots::roulette); }
 
     /// Does the remembered fills of the block again, in one go, and takes the time: a clock around each single fill would
@@ -73,6 +76,12 @@ public:
         const double start = thread_seconds();
         for (const Fill& f : fills_) source_.fill(f.samples, f.run, scratch.data(), f.stride);
         return thread_seconds() - start;
+    }
+
+    /// Number k of a draw without a bound.
+    [[nodiscard]] float tail(std::size_t bounce, SlotRole role, std::uint32_t k) noexcept {
+        ++tail_numbers;
+        return tail_sample(source_.seed(), id(), static_cast<std::uint32_t>(bounce), role, k);
     }
 
     std::uint64_t tail_numbers = 0;  ///< numbers drawn from the tail beyond the layout
@@ -95,10 +104,6 @@ private:
             single_bounce_ = bounce;
         }
         return single_[row];
-    }
-    [[nodiscard]] float tail(std::size_t bounce, SlotRole role, std::uint32_t k) noexcept {
-        ++tail_numbers;
-        return tail_sample(source_.seed(), id(), static_cast<std::uint32_t>(bounce), role, k);
     }
     void fill(std::span<const SampleId> ids, SlotRun run, float* out, std::size_t stride) noexcept {
         source_.fill(ids, run, out, stride);

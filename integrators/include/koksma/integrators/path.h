@@ -18,6 +18,8 @@ struct NoObserver {
     void shadow(const Ray&, bool) noexcept {}
     void escaped(Vec3f, Vec3f, float) noexcept {}
     void vertex(const Surface&, Hit, Vec3f, Vec3f) noexcept {}
+    void passed(Vec3f) noexcept {}
+    void collision(Vec3f, Vec3f, Vec3f) noexcept {}
     void emission(Vec3f, float) noexcept {}
     void direct_light(std::uint32_t, const LightSample&, Vec3f, float, bool) noexcept {}
     void bounce(const BsdfSample&, Vec3f, Vec3f) noexcept {}

@@ -30,14 +30,19 @@ enum class Effect : std::uint8_t {
     mesh_attribute,   ///< textures that look up values of vertices and faces
     lobe,             ///< BSDFs that choose among lobes: a 1-D draw per bounce
     layered,          ///< materials of several lobes or parts (koksma/scene/bsdf/layered.h), computed one path at a time
+    medium,           ///< participating media: a 1-D draw per bounce, of the distance
+    heterogeneous,    ///< media that vary in space: a 1-D draw per bounce, of which collision is real
+    null_boundary,    ///< surfaces that volumetric paths cross straight on, shadow rays too
+    mask,             ///< such as stop a part of the paths: a 1-D draw per bounce
 };
-inline constexpr int kEffectCount = 20;
+inline constexpr int kEffectCount = 24;
 
 [[nodiscard]] constexpr std::string_view name(Effect e) noexcept {
     constexpr std::string_view kNames[kEffectCount] = {"lens",       "light_choice", "area_light", "sphere_light",   "point_light",
                                                        "environment", "diffuse",      "glossy",     "specular",       "dielectric",
                                                        "two_sided",  "texture",      "analytic_shape", "shading_normals", "anisotropic",
-                                                       "roulette",   "many_lights",  "mesh_attribute", "lobe",          "layered"};
+                                                       "roulette",   "many_lights",  "mesh_attribute", "lobe",          "layered",
+                                                       "medium",     "heterogeneous", "null_boundary", "mask"};
     return kNames[static_cast<int>(e)];
 }
 

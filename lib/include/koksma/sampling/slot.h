@@ -15,12 +15,17 @@ enum class SlotRole : std::uint8_t {
     light_choice,    ///< which light to sample, 1-D
     light_position,  ///< point on (or direction to) the chosen light, 2-D
     lobe,            ///< which lobe of the BSDF (reflection or transmission), 1-D
-    direction,       ///< direction from the BSDF, 2-D
+    direction,       ///< direction from the BSDF or the phase function, 2-D
     roulette,        ///< Russian roulette, 1-D
+    distance,        ///< how far a path comes in media, 1-D
+    collision,       ///< which collision with a heterogeneous medium is real, 1-D
+    passage,         ///< which of the surfaces that let a part pass stops the path, 1-D
+    transmittance,   ///< steps of a shadow ray through heterogeneous media; from the tail alone
 };
 
 [[nodiscard]] constexpr std::string_view name(SlotRole role) noexcept {
-    constexpr std::string_view kNames[] = {"film", "lens", "time", "light choice", "light position", "lobe", "direction", "roulette"};
+    constexpr std::string_view kNames[] = {"film", "lens", "time", "light choice", "light position", "lobe", "direction", "roulette",
+                                           "distance", "collision", "passage", "transmittance"};
     return kNames[static_cast<int>(role)];
 }
 

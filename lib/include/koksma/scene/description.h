@@ -157,6 +157,41 @@ struct Material {
     SourceLocation where;
 };
 
+// ------------------------------------------------------------------------------------------------ media
+
+/// Values of the cells of a box, which is the unit cube before any transform.
+struct VolumeGrid {
+    std::array<std::int32_t, 3> size{1, 1, 1};  ///< cells along x, y, z
+    std::int32_t channels = 1;                  ///< 1 or 3
+    std::vector<float> values;                  ///< (z, y, x, channels)
+    glm::vec3 low{0.0f}, high{1.0f};            ///< the box that the file names
+};
+struct GridVolume {
+    enum class Filter : std::uint8_t { trilinear, nearest };
+    enum class Wrap : std::uint8_t { clamp, repeat, mirror };
+    std::shared_ptr<const VolumeGrid> grid;
+    Filter filter = Filter::trilinear;
+    Wrap wrap = Wrap::clamp;
+    glm::dmat4 to_world{1.0};  ///< of the unit cube
+};
+struct ConstantVolume {
+    Rgb value{1.0f};
+    glm::dmat4 to_world{1.0};  ///< where a heterogeneous medium of this extinction ends: at the unit cube
+};
+/// A value per point of space.
+using Volume = std::variant<ConstantVolume, GridVolume>;
+
+/// What absorbs and scatters light within a volume.
+struct Medium {
+    bool heterogeneous = false;           ///< varies in space, and ends at the box around its extinction
+    Volume sigma_t = ConstantVolume{};    ///< extinction, m^-1; of a homogeneous medium constant
+    Volume albedo = ConstantVolume{Rgb(0.75f), glm::dmat4(1.0)};  ///< what of the extinction is scattered, [0, 1]
+    double scale = 1.0;                   ///< of the extinction
+    double g = 0.0;                       ///< mean cosine of the Henyey-Greenstein phase function, (-1, 1); 0: isotropic
+    bool sample_emitters = true;          ///< false: light reaches its points by phase function sampling alone
+    SourceLocation where;
+};
+
 // ------------------------------------------------------------------------------------------------ shapes
 
 /// Colours, or numbers as greys, of vertices or faces.
@@ -206,6 +241,7 @@ struct Shape {
     bool face_normals = false;
     std::uint32_t material = 0;  ///< index into SceneDescription::materials
     std::optional<AreaEmission> emission;
+    std::optional<std::uint32_t> interior, exterior;  ///< indices into SceneDescription::media; with either, the shape is where media end
     SourceLocation where;
 };
 
@@ -265,6 +301,7 @@ struct Camera {
     double near_clip = 1e-2, far_clip = 1e4;   ///< distances along the camera's z
     double aperture_radius = 0.0;              ///< 0: pinhole
     double focus_distance = 1e4;               ///< distance along z of the plane in focus
+    std::optional<std::uint32_t> medium;       ///< that the camera is in, index into SceneDescription::media
     glm::dvec2 principal_point_offset{0.0};    ///< in fractions of the full film: film position (x, y) sees what (x, y) + offset saw without it
     SourceLocation where;
 };
@@ -290,6 +327,9 @@ struct IntegratorSettings {
     std::int32_t max_depth = -1;  ///< longest path in vertices after the camera; 1: emission seen directly; -1: no limit
     std::int32_t rr_depth = 5;    ///< roulette from this depth on
     bool hide_emitters = false;   ///< directly visible emitters are black
+    /// Mitsuba's volpath: there are media, and surfaces that let light pass straight on are no vertices of a path. False: its path, for
+    /// which there is vacuum everywhere and passing on is a bounce.
+    bool volumetric = false;
     std::string moments;          ///< name under which moments of the samples are written beside the image; empty: none are kept
 };
 
@@ -297,6 +337,7 @@ struct IntegratorSettings {
 struct SceneDescription {
     std::string file;
     std::vector<Material> materials;  ///< [0] is the default diffuse of reflectance 0.5
+    std::vector<Medium> media;
     std::vector<Shape> shapes;
     std::vector<PointLight> point_lights;
     std::vector<DeltaLight> delta_lights;

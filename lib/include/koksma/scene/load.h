@@ -22,6 +22,8 @@ using SceneParameters = std::map<std::string, std::string>;
 [[nodiscard]] MeshData load_ply(const std::filesystem::path& file);
 /// Reads one mesh of a Mitsuba file, versions 3 and 4. No normals are computed. @throws Error
 [[nodiscard]] MeshData load_serialized(const std::filesystem::path& file, std::uint32_t index = 0);
+/// Reads a volume of Mitsuba's format, version 3. @throws Error, also for values that are not finite
+[[nodiscard]] VolumeGrid load_vol(const std::filesystem::path& file);
 /// Reads PNG, JPEG, HDR or EXR to linear RGB. @param raw  take 8-bit values as they are, without the sRGB curve
 /// @throws Error, also for NaN, infinite or negative texels
 [[nodiscard]] Image load_image(const std::filesystem::path& file, bool raw);

@@ -10,8 +10,10 @@
 #include <koksma/scene/distribution.h>
 #include <koksma/scene/environment_map.h>
 #include <koksma/scene/light_tree.h>
+#include <koksma/scene/medium/medium_record.h>
 #include <koksma/scene/texture.h>
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -102,6 +104,10 @@ struct Scene {
     std::vector<AttributeSlot> attribute_slots;  ///< by texture; -1 for other textures
     Accelerator accelerator;
 
+    std::vector<MediumRecord> media;
+    std::vector<MediumBoundary> boundaries;  ///< by geometry; empty without media
+    std::int32_t camera_medium = -1;    ///< that the camera is in
+
     std::vector<Light> lights;
     std::vector<Beam> beams;
     DiscreteDistribution light_choice;  ///< by power
@@ -109,6 +115,13 @@ struct Scene {
     std::int32_t environment_light = -1;
     std::optional<EnvironmentMap> environment_map;
     float bounding_radius = 1.0f;
+
+    std::map<Effect, SourceLocation> called_for;  ///< who called first for an effect, where that is known
+    void call_for(EffectSet set, const SourceLocation& where) {
+        effects |= set;
+        for (int i = 0; i < kEffectCount; ++i)
+            if (set.has(static_cast<Effect>(i))) called_for.try_emplace(static_cast<Effect>(i), where);
+    }
 };
 
 /// Checks, re-centres, flattens and builds the BVH.

@@ -1,4 +1,4 @@
-// <integrator>: path, direct, volpath, and moment around one of them.
+// <integrator>: path, direct, volpath, volpathmis, and moment around one of them.
 
 #include "fail.h"
 #include "sensor.h"
@@ -22,12 +22,12 @@ void read_direct(Properties& p, IntegratorSettings& settings) {
 }
 
 void read_one(const Element& element, Context& context, bool inside_moment) {
-    Properties p(element, context.ids, {"path", "direct", "volpath", "moment"});
+    Properties p(element, context.ids, {"path", "direct", "volpath", "volpathmis", "moment"});
     IntegratorSettings& settings = context.scene.integrator;
     if (p.type() == "moment") {
         if (inside_moment) fail(p.where(), "a moment integrator inside another is not supported");
         const Element* nested = p.object("integrator");
-        if (!nested) fail(p.where(), "'moment' takes one integrator (path, direct or volpath)");
+        if (!nested) fail(p.where(), "'moment' takes one integrator (path, direct, volpath or volpathmis)");
         p.finish();
         const std::string* name = nested->find("name");
         settings.moments = name ? *name : "_arg_0";  // what Mitsuba calls a child without a name
@@ -39,6 +39,7 @@ void read_one(const Element& element, Context& context, bool inside_moment) {
         settings.max_depth = static_cast<std::int32_t>(p.integer("max_depth", settings.max_depth, -1, kMax));
         settings.rr_depth = static_cast<std::int32_t>(p.integer("rr_depth", settings.rr_depth, 1, kMax));
     }
+    settings.volumetric = p.type() == "volpath" || p.type() == "volpathmis";
     settings.hide_emitters = p.boolean("hide_emitters", settings.hide_emitters);
     p.finish();
 }

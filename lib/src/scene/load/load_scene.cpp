@@ -5,6 +5,7 @@
 #include "emitters.h"
 #include "fail.h"
 #include "header_comment.h"
+#include "media.h"
 #include "scene_hash.h"
 #include "sensor.h"
 #include "shapes.h"
@@ -31,7 +32,7 @@ const Element* only(const XmlDocument& document, std::string_view tag) {
 }
 
 void check_tags(const XmlDocument& document) {
-    const std::vector<std::string> tags{"default", "include", "path", "alias", "integrator", "sensor", "bsdf", "texture", "shape", "emitter"};
+    const std::vector<std::string> tags{"default", "include", "path", "alias", "integrator", "sensor", "bsdf", "texture", "medium", "phase", "volume", "shape", "emitter"};
     for (const Element& e : document.elements)
         if (std::find(tags.begin(), tags.end(), e.tag) == tags.end())
             fail(e.where, "<{}> is not supported in <scene>; {}supported: {}", e.tag, did_you_mean(e.tag, tags), list_of(tags));
@@ -42,6 +43,7 @@ void check_unused(const XmlDocument& document, Context& context) {
     for (const Element& e : document.elements) {
         if (e.tag == "bsdf" && !context.materials.contains(&e)) (void)parse_material(e, context);
         if (e.tag == "texture") (void)parse_texture(e, ColorUse::any, context);
+        check_medium_object(e, context);
         if (e.tag == "emitter" && e.required("type") == "area" && !context.attached_emitters.contains(&e))
             fail(e.where, "this area emitter is not attached to a shape; put it, or a <ref> to it, in a <shape>");
     }

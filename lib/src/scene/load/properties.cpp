@@ -13,8 +13,8 @@ namespace {
 
 constexpr std::array<std::string_view, 9> kParameterTags{"float",    "integer", "boolean", "string",   "rgb",
                                                          "spectrum", "point",   "vector",  "transform"};
-constexpr std::array<std::string_view, 9> kObjectTags{"bsdf", "texture", "shape",      "emitter", "sensor",
-                                                      "film", "sampler", "integrator", "rfilter"};
+constexpr std::array<std::string_view, 12> kObjectTags{"bsdf", "texture", "shape",      "emitter", "sensor", "film",
+                                                       "sampler", "integrator", "rfilter", "medium",  "phase",  "volume"};
 
 bool is_parameter(std::string_view tag) { return std::find(kParameterTags.begin(), kParameterTags.end(), tag) != kParameterTags.end(); }
 bool is_object(std::string_view tag) { return std::find(kObjectTags.begin(), kObjectTags.end(), tag) != kObjectTags.end(); }
@@ -184,6 +184,16 @@ glm::dmat4 Properties::transform(const std::string& name) {
 
 const Element* Properties::value(const std::string& name) {
     const Child* child = take(name, {"float", "integer", "rgb", "spectrum", "texture"}, "a colour or a texture");
+    return child ? child->meant : nullptr;
+}
+
+const Element* Properties::field(const std::string& name) {
+    const Child* child = take(name, {"float", "integer", "rgb", "spectrum", "volume"}, "a colour or a volume");
+    return child ? child->meant : nullptr;
+}
+
+const Element* Properties::named_object(const std::string& name, std::string_view tag) {
+    const Child* child = take(name, {tag}, fmt::format("a {}", tag));
     return child ? child->meant : nullptr;
 }
 

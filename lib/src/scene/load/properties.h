@@ -45,6 +45,10 @@ public:
     [[nodiscard]] glm::dmat4 transform(const std::string& name);
     /// A colour or a texture, <ref>s followed; nullptr if it is absent.
     [[nodiscard]] const Element* value(const std::string& name);
+    /// A colour or a volume, <ref>s followed; nullptr if it is absent.
+    [[nodiscard]] const Element* field(const std::string& name);
+    /// The object of a tag that has this name, <ref>s followed; nullptr if it is absent.
+    [[nodiscard]] const Element* named_object(const std::string& name, std::string_view tag);
     /// Where a parameter stands; the plugin itself if it is absent.
     [[nodiscard]] const SourceLocation& where(std::string_view name) const noexcept;
 

@@ -56,6 +56,10 @@ public:
         h_.word(static_cast<std::uint64_t>(scene_.film.width)), h_.word(static_cast<std::uint64_t>(scene_.film.height));
         h_.word(static_cast<std::uint64_t>(std::int64_t{scene_.integrator.max_depth}));
         h_.word(scene_.integrator.hide_emitters);
+        if (scene_.integrator.volumetric) {
+            h_.word(0x766F6C);
+            if (scene_.camera.medium) add(scene_.media.at(*scene_.camera.medium));
+        }
         return h_.value();
     }
 
@@ -68,6 +72,23 @@ private:
         add(scene_.materials.at(s.material));
         h_.word(s.emission.has_value());
         if (s.emission) add(s.emission->radiance);
+        if (scene_.integrator.volumetric) {
+            if (s.interior) h_.word(0x696E74), add(scene_.media.at(*s.interior));
+            if (s.exterior) h_.word(0x657874), add(scene_.media.at(*s.exterior));
+        }
+    }
+    void add(const Medium& m) {
+        h_.word(m.heterogeneous), h_.word(m.sample_emitters), h_.number(m.scale), h_.number(m.g);
+        for (const Volume* v : {&m.sigma_t, &m.albedo}) h_.word(v->index()), std::visit([this](const auto& x) { add(x); }, *v);
+    }
+    void add(const ConstantVolume& v) { h_.vec(v.value), h_.matrix<4>(v.to_world); }
+    void add(const GridVolume& v) {
+        h_.word(once(v.grid.get(), [&](Hasher& h) {
+            for (const std::int32_t n : v.grid->size) h.word(static_cast<std::uint64_t>(n));
+            h.word(static_cast<std::uint64_t>(v.grid->channels));
+            for (const float x : v.grid->values) h.number(static_cast<double>(x));
+        }));
+        h_.word(static_cast<std::uint64_t>(v.filter)), h_.word(static_cast<std::uint64_t>(v.wrap)), h_.matrix<4>(v.to_world);
     }
     void add(const RectangleShape&) {}
     void add(const DiskShape&) {}

@@ -1,6 +1,7 @@
 #include "sensor.h"
 
 #include "fail.h"
+#include "media.h"
 #include "numbers.h"
 
 #include <glm/geometric.hpp>
@@ -106,6 +107,7 @@ void read_sensor(const Element& element, Context& context) {
         read_lens(p, camera);
     }
     check_shutter(p);
+    if (const Element* medium = p.object("medium")) camera.medium = medium_of(*medium, context);
     if (const Element* sampler = p.object("sampler")) read_sampler(*sampler, context);
     p.finish();
 }

@@ -4,6 +4,7 @@
 #include "emitters.h"
 #include "fail.h"
 #include "files.h"
+#include "media.h"
 #include "mesh.h"
 #include "transforms.h"
 
@@ -152,7 +153,10 @@ void read_shape(const Element& element, Context& context) {
     shape.geometry = read_geometry(p, shape.to_world, shape.face_normals, context);
     const Element* bsdf = p.object("bsdf");
     const Element* emitter = p.object("emitter");
+    const Element *interior = p.named_object("interior", "medium"), *exterior = p.named_object("exterior", "medium");
     p.finish();
+    if (interior) shape.interior = medium_of(*interior, context);
+    if (exterior) shape.exterior = medium_of(*exterior, context);
     check_placement(p, shape);
     if (emitter) shape.emission = read_area_emission(*emitter, context);
     shape.material = bsdf ? material_of(*bsdf, context) : emitter ? black_material(context) : 0;
