@@ -171,10 +171,7 @@ inline void sample_environment(const Scene& scene, Mask active, Vec2<Float> u, L
     Vec3<Float> d;
     if (scene.environment_map) {
         if (scene.environment_map->is_black()) return;  // pdf_w is zero there
-        VectorLanes directions(Vec3<Float>{Float(0.0f), Float(0.0f), Float(1.0f)});
-        const NumberLanes x(u.x), y(u.y);
-        for_lanes(active, [&](int i) { directions.set(i, scene.environment_map->sample({x.x[i], y.x[i]})); });
-        d = directions.pack();
+        d = environment_direction(scene.environment_map->cells(), u);
     } else {
         d = square_to_sphere(u);
     }

@@ -29,7 +29,7 @@ KOKSMA_MATHS_BEGIN
 template <class Real>
 struct EnvironmentValueOf {
     Vec3<Real> radiance;  ///< W sr^-1 m^-2
-    Real pdf_w;           ///< with which EnvironmentMap::sample draws the direction, per steradian
+    Real pdf_w;           ///< with which environment_direction draws it, per steradian
 };
 
 /// @param d  unit, world space

@@ -134,7 +134,7 @@ template <EffectSet kEffects>
                 return {d, light.radiance.constant, 0.25f * kInvPi, false, true, d};
             }
             if (scene.environment_map->is_black()) return {};
-            const Vec3f d = scene.environment_map->sample(u);
+            const Vec3f d = environment_direction(scene.environment_map->cells(), u);
             const auto value = environment_value(scene.environment_map->table(), d);
             if (!(value.pdf_w > 0.0f)) return {};
             return {d, value.radiance, value.pdf_w, false, true, d};
