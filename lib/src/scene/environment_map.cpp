@@ -19,10 +19,6 @@ Vec3f row_of(const glm::dmat3& m, int row) {
 
 constexpr double kPiDouble = std::numbers::pi;
 
-float probability(std::span<const std::int32_t> begin, int i) {
-    return static_cast<float>(begin[static_cast<std::size_t>(i) + 1] - begin[static_cast<std::size_t>(i)]) * (1.0f / static_cast<float>(kWhole));
-}
-
 }  // namespace
 
 EnvironmentMap::EnvironmentMap(const MapEnvironment& description) : width_(description.image->width), height_(description.image->height) {
@@ -53,7 +49,6 @@ EnvironmentMap::EnvironmentMap(const MapEnvironment& description) : width_(descr
     const auto band = [&](int y) { return 2.0 * kPiDouble * (cosines[y] - cosines[y + 1]); };  // solid angle of a row of cells
     std::vector<double> row_weights, weights(static_cast<std::size_t>(width_));
     Vec3d sum;
-    cell_pdf_.reserve(static_cast<std::size_t>(width_) * rows);
     for (int y = 0; y < rows; ++y) {
         double row_sum = 0.0;
         for (int x = 0; x < width_; ++x) {
@@ -63,14 +58,15 @@ EnvironmentMap::EnvironmentMap(const MapEnvironment& description) : width_(descr
             row_sum += weights[x];
             sum += cell * (band(y) / width_);
         }
-        const auto begin = columns_.add_row(weights);
-        for (int x = 0; x < width_; ++x) cell_pdf_.push_back(probability(begin, x) / (static_cast<float>(band(y)) / static_cast<float>(width_)));
+        columns_.add_row(weights);
         row_weights.push_back(row_sum);
         black_ = black_ && !(row_sum > 0.0);
     }
     const auto begin = rows_.add_row(row_weights);
-    for (int y = 0; y < rows; ++y)
-        for (int x = 0; x < width_; ++x) cell_pdf_[static_cast<std::size_t>(y) * width_ + x] *= row_weights[y] > 0.0 ? probability(begin, y) : 0.0f;
+    for (int y = 0; y < rows; ++y) {
+        const double row_parts = row_weights[y] > 0.0 ? begin[y + 1] - begin[y] : 0;
+        row_density_.push_back(static_cast<float>(row_parts / kWhole / kWhole * width_ / band(y)));
+    }
     mean_ = to_float(sum * (1.0 / (4.0 * kPiDouble)));
 }
 

@@ -18,8 +18,8 @@ class EnvironmentMap {
 public:
     explicit EnvironmentMap(const MapEnvironment& description);
 
-    /// For environment_value(): radiance and density of a direction.
-    [[nodiscard]] EnvironmentTable table() const noexcept { return {width_, height_, texels_.data(), cell_pdf_.data(), axis_x_, axis_y_, axis_z_}; }
+    /// For environment_radiance() and environment_density().
+    [[nodiscard]] EnvironmentTable table() const noexcept { return {width_, height_, texels_.data(), columns_.table().begin, row_density_.data(), axis_x_, axis_y_, axis_z_}; }
     [[nodiscard]] bool is_black() const noexcept { return black_; }
     /// For environment_direction(): draws by cells. @pre  !is_black()
     [[nodiscard]] EnvironmentCells cells() const noexcept {
@@ -45,7 +45,7 @@ private:
     std::vector<Vec3f> texels_;      ///< (height, width + 1): the first column is repeated at the end
     Vec3f axis_x_, axis_y_, axis_z_; ///< rows of world-to-map
     std::vector<float> half_sine2_;  ///< sin^2 of half the polar angle of each row of texels
-    std::vector<float> cell_pdf_;
+    std::vector<float> row_density_;
     Distributions rows_, columns_;
     bool black_ = true;
     Vec3f mean_{0.0f};
