@@ -10,7 +10,7 @@ inline constexpr EffectSet kDiffuseEffects{Effect::area_light, Effect::light_cho
 inline constexpr EffectSet kDiffuseTexturedEffects =
     kDiffuseEffects | EffectSet{Effect::texture, Effect::two_sided, Effect::environment, Effect::point_light, Effect::lens};
 inline constexpr EffectSet kSpecularEffects =
-    kDiffuseEffects | EffectSet{Effect::analytic_shape, Effect::sphere_light, Effect::specular, Effect::dielectric, Effect::lobe};
+    kDiffuseEffects | EffectSet{Effect::analytic_shape, Effect::sphere_light, Effect::specular, Effect::dielectric, Effect::lobe, Effect::environment};
 
 /// Paths that are bounces on surfaces and nothing else.
 inline constexpr EffectSet kSurfaceEffects =

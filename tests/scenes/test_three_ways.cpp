@@ -202,8 +202,9 @@ public:
             const std::uint32_t triangle = chosen_triangle<kAll>(scene_, light, hit.primitive);
             pdf_light = light_pdf<kAll>(scene_, scene_.lights[light], surface_.p, there, wi, triangle) * probability(light, triangle);
         } else if (scene_.environment_light >= 0) {
-            le = environment_radiance<kAll>(scene_, wi);
-            pdf_light = environment_pdf<kAll>(scene_, wi) * probability(static_cast<std::uint32_t>(scene_.environment_light), kWholeLight);
+            const EnvironmentValue sky = environment_value(scene_, wi);
+            le = sky.radiance;
+            pdf_light = sky.pdf_w * probability(static_cast<std::uint32_t>(scene_.environment_light), kWholeLight);
         }
         return s.weight.y * le.y * (weighted ? power_heuristic(s.pdf_w, pdf_light) : 1.0f);
     }

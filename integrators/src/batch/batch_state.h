@@ -47,4 +47,14 @@ struct alignas(64) ShadowQueue {
     IntRow slot;
 };
 
+/// Rays that met nothing, with what they bring of the environment. It holds one group of packs at a time.
+struct alignas(64) EscapeQueue {
+    VectorRows d;            ///< later x and y: the place in the cell
+    VectorRows beta;
+    FloatRow pdf;            ///< of the direction, per steradian; -1 if light sampling could not have made it
+    FloatRow probability;    ///< with which the environment would have been chosen
+    IntRow slot;
+    IntRow column, row;      ///< of the map's cell
+};
+
 }  // namespace koksma::detail

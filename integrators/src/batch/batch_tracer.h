@@ -30,10 +30,13 @@ class BatchTracer final : public Tracer {
     static constexpr bool kDelta = kEffects.has(Effect::specular) || kEffects.has(Effect::dielectric);
     static constexpr std::size_t kPack = static_cast<std::size_t>(kLanes);
 
+    /// Paths whose rays are all traced before the first is shaded: what they met is on its way to the cache meanwhile.
+    static constexpr std::size_t kGroup = 8 * kPack;
+
 public:
     explicit BatchTracer(const TraceJob& job)
         : scene_(job.scene), settings_(job.plan.integrator), numbers_(job, stats_), single_light_(job.scene), paths_(std::make_unique<detail::PathQueue>()),
-          shadows_(std::make_unique<detail::ShadowQueue>()), order_(job.scene) {
+          shadows_(std::make_unique<detail::ShadowQueue>()), escaped_(std::make_unique<detail::EscapeQueue>()), order_(job.scene) {
         for (std::uint32_t& m : packet_.mask) m = ~0u;
     }
 
@@ -54,7 +57,7 @@ public:
             alive_ = waiting_ = 0;
             sorted_ = depth_ > 0 && order_.pays();  // never by the number of rays: Embree answers by flag
             if (sorted_) trace_in_order(count);
-            for (std::size_t at = 0; at < count; at += kPack) bounce(at, Mask::first(count - at));
+            for (std::size_t at = 0; at < count; at += kGroup) bounce_group(at, count);
             trace_shadow_rays();
         }
     }
@@ -92,7 +95,35 @@ private:
         }
     }
 
-    /// One pack of paths: from its ray to the next.
+    /// A few packs of paths, in steps.
+    void bounce_group(std::size_t first, std::size_t count) {
+        const auto each = [&](auto&& step) {
+            for (std::size_t at = first; at < first + kGroup && at < count; at += kPack) step(at, Mask::first(count - at));
+        };
+        if (!sorted_) each([&](std::size_t at, Mask active) { trace_pack(at, active); });
+        if (!order_.pays())
+            each([&](std::size_t at, Mask active) {
+                const Int32 geometry = Int32::load(geometry_ + at);
+                prefetch_vertices<kEffects>(scene_, active & (geometry != Int32(-1)), geometry, Int32::load(primitive_ + at));
+            });
+        each([&](std::size_t at, Mask active) { bounce(at, active); });
+        if constexpr (kEffects.has(Effect::environment)) add_environment();
+    }
+
+    /// What the rays of a pack meet.
+    void trace_pack(std::size_t at, Mask active) {
+        const detail::PathQueue& q = *paths_;
+        const Vec3<Float> o = load(q.o, at), d = load(q.d, at);
+        const bool camera = depth_ == 0;
+        closest_hit(active & is_traceable(o, d), o, d, camera ? Float::load(q.t_near + at) : Float(0.0f),
+                    camera ? Float::load(q.t_far + at) : Float(kInfinity), camera ? Coherence::coherent : Coherence::incoherent);
+        const Int32 geometry = as_int(UInt32::load(packet_.geometry)), primitive = as_int(UInt32::load(packet_.primitive));
+        geometry.store(geometry_ + at);
+        primitive.store(primitive_ + at);
+        if (!order_.pays()) prefetch_triangles(scene_, active & (geometry != Int32(-1)), geometry, primitive);
+    }
+
+    /// One pack of paths: from what its rays met to the next rays.
     [[gnu::flatten]] void bounce(std::size_t at, Mask active) {
         detail::PathQueue& q = *paths_;
         const Vec3<Float> o = load(q.o, at), d = load(q.d, at);
@@ -102,22 +133,12 @@ private:
         // ---- where the rays go
         active = only_traceable(active, o, d);
         if (!any(active)) return;
-        Int32 geometry, primitive;
-        if (sorted_) {
-            geometry = Int32::load(geometry_ + at);
-            primitive = Int32::load(primitive_ + at);
-        } else {
-            const bool camera = depth_ == 0;
-            closest_hit(active, o, d, camera ? Float::load(q.t_near + at) : Float(0.0f), camera ? Float::load(q.t_far + at) : Float(kInfinity),
-                        camera ? Coherence::coherent : Coherence::incoherent);
-            geometry = as_int(UInt32::load(packet_.geometry));
-            primitive = as_int(UInt32::load(packet_.primitive));
-        }
+        const Int32 geometry = Int32::load(geometry_ + at), primitive = Int32::load(primitive_ + at);
         stats_.rays.closest += static_cast<std::uint64_t>(count(active));
         if (!hashes_.empty()) hash_hits(active, geometry, primitive);
         const Mask hit = active & (geometry != Int32(-1));
         if constexpr (kEffects.has(Effect::environment))
-            if (const Mask escaped = active & !hit; any(escaped)) add_environment(at, escaped, d, beta);
+            if (const Mask escaped = active & !hit; any(escaped)) queue_escaped(at, escaped, d, beta);
         if (!any(hit)) return;
         const SurfacePack surface = surface_pack<kEffects>(scene_, hit, o, d, geometry, primitive);
         const Vec3<Float> wo = -d;
@@ -228,21 +249,63 @@ private:
         });
     }
 
-    void add_environment(std::size_t at, Mask escaped, const Vec3<Float>& d, const Vec3<Float>& beta) {
+    void queue_escaped(std::size_t at, Mask escaped, const Vec3<Float>& d, const Vec3<Float>& beta) {
         if (scene_.environment_light < 0 || (depth_ == 0 && settings_.hide_emitters)) return;
-        const EnvironmentValueOf<Float> value = environment_pack(scene_, d);
         const Mask delta = Int32::load(paths_->delta + at) != Int32(0);
-        Float probability{1.0f};
+        Float probability;
         if constexpr (kEffects.has(Effect::many_lights)) {
-            NumberLanes lanes(probability);
+            NumberLanes lanes(Float(1.0f));
             for_lanes(escaped & !delta, [&](int i) { lanes.x[i] = light_probability(at + static_cast<std::size_t>(i), environment_light(), kWholeLight); });
             probability = lanes.pack();
         } else {
             probability = Float(light_probability(at, environment_light(), kWholeLight));
         }
-        const Float weight = select(delta, Float(1.0f), power_heuristic(Float::load(paths_->pdf + at), value.pdf_w * probability));
-        const VectorLanes contribution(beta * value.radiance * weight);
-        for_lanes(escaped, [&](int i) { radiance(i) += contribution[i]; });
+        detail::EscapeQueue& q = *escaped_;
+        compress_store(d, escaped, q.d, escapes_);
+        compress_store(beta, escaped, q.beta, escapes_);
+        select(delta, Float(-1.0f), Float::load(paths_->pdf + at)).compress_store(escaped, q.pdf + escapes_);
+        probability.compress_store(escaped, q.probability + escapes_);
+        escapes_ += Int32::load(slots_).compress_store(escaped, q.slot + escapes_);
+    }
+
+    /// What the escaped rays of a group bring: first all places in the map, so that it is there when it is read.
+    void add_environment() {
+        detail::EscapeQueue& q = *escaped_;
+        const bool mapped = scene_.environment_map.has_value();
+        const EnvironmentTable table = mapped ? scene_.environment_map->table() : EnvironmentTable{};
+        if (mapped)
+            for (std::size_t at = 0; at < escapes_; at += kPack) {
+                const EnvironmentPlaceOf<Float> place = environment_place(table, load(q.d, at));
+                place.x.store(q.d.x + at);
+                place.y.store(q.d.y + at);
+                place.column.store(q.column + at);
+                place.row.store(q.row + at);
+                const Mask active = Mask::first(escapes_ - at);
+                const Int32 cell = place.row * Int32(table.width + 1) + place.column;
+                prefetch(table.texels, active, cell);
+                prefetch(table.texels + table.width + 1, active, cell);
+                prefetch(table.begin, active & !(Float::load(q.pdf + at) < Float(0.0f)), cell);
+            }
+        for (std::size_t at = 0; at < escapes_; at += kPack) {
+            const Mask active = Mask::first(escapes_ - at);
+            const Float pdf = Float::load(q.pdf + at);
+            const Mask delta = pdf < Float(0.0f);
+            Vec3<Float> radiance;
+            Float pdf_light(0.25f * kInvPi);
+            if (mapped) {
+                // Lanes beyond the last hold old places or zeros: the map has them.
+                const EnvironmentPlaceOf<Float> place{Int32::load(q.column + at), Int32::load(q.row + at), Float::load(q.d.x + at), Float::load(q.d.y + at)};
+                radiance = environment_radiance(table, place);
+                if (any(active & !delta)) pdf_light = environment_density(table, place);
+            } else {
+                radiance = Vec3<Float>::splat(scene_.lights[environment_light()].radiance.constant);
+            }
+            const Float weight = select(delta, Float(1.0f), power_heuristic(pdf, pdf_light * Float::load(q.probability + at)));
+            const VectorLanes contribution(load(q.beta, at) * radiance * weight);
+            Int32::load(q.slot + at).store(slots_);
+            for_lanes(active, [&](int i) { this->radiance(i) += contribution[i]; });
+        }
+        escapes_ = 0;
     }
     [[nodiscard]] std::uint32_t environment_light() const { return static_cast<std::uint32_t>(scene_.environment_light); }
 
@@ -375,13 +438,14 @@ private:
     const SingleLight single_light_;
     std::unique_ptr<detail::PathQueue> paths_;
     std::unique_ptr<detail::ShadowQueue> shadows_;
+    std::unique_ptr<detail::EscapeQueue> escaped_;
     RayOrder order_;
     RayPacket<kLanes> packet_{};
-    alignas(64) detail::IntRow geometry_{}, primitive_{};  // hits of sorted rays
+    alignas(64) detail::IntRow geometry_{}, primitive_{};  // what the rays met
     alignas(4 * kLanes) IntLanes valid_{}, slots_{};
     std::span<Vec3f> radiance_;
     std::span<std::uint64_t> hashes_;
-    std::size_t alive_ = 0, waiting_ = 0;
+    std::size_t alive_ = 0, waiting_ = 0, escapes_ = 0;
     std::int32_t depth_ = 0;
     bool last_vertex_ = false, sorted_ = false;
 };

@@ -160,29 +160,26 @@ template <EffectSet kEffects>
     return out;
 }
 
-/// As koksma::environment_radiance and environment_pdf.
-[[nodiscard]] inline EnvironmentValueOf<Float> environment_pack(const Scene& scene, const Vec3<Float>& d) {
-    if (scene.environment_map) return environment_value(scene.environment_map->table(), d);
-    return {Vec3<Float>::splat(scene.lights[static_cast<std::size_t>(scene.environment_light)].radiance.constant), Float(0.25f * kInvPi)};
-}
-
 /// As koksma::sample_light for the environment.
 inline void sample_environment(const Scene& scene, Mask active, Vec2<Float> u, LightSamplePack& out) {
-    Vec3<Float> d;
+    Vec3<Float> d, radiance;
+    Float pdf;
     if (scene.environment_map) {
         if (scene.environment_map->is_black()) return;  // pdf_w is zero there
-        VectorLanes directions(Vec3<Float>{Float(0.0f), Float(0.0f), Float(1.0f)});
-        const NumberLanes x(u.x), y(u.y);
-        for_lanes(active, [&](int i) { directions.set(i, scene.environment_map->sample({x.x[i], y.x[i]})); });
-        d = directions.pack();
+        d = environment_direction(scene.environment_map->cells(), u);
+        const EnvironmentTable table = scene.environment_map->table();
+        const EnvironmentPlaceOf<Float> place = environment_place(table, d);
+        radiance = environment_radiance(table, place);
+        pdf = environment_density(table, place);
     } else {
         d = square_to_sphere(u);
+        radiance = Vec3<Float>::splat(scene.lights[static_cast<std::size_t>(scene.environment_light)].radiance.constant);
+        pdf = Float(0.25f * kInvPi);
     }
-    const EnvironmentValueOf<Float> value = environment_pack(scene, d);
     assign<Float>(active, out.wi, d);
     assign<Float>(active, out.target, d);
-    assign<Float>(active, out.radiance, value.radiance);
-    out.pdf_w = select(active, value.pdf_w, out.pdf_w);
+    assign<Float>(active, out.radiance, radiance);
+    out.pdf_w = select(active, pdf, out.pdf_w);
     out.at_infinity = out.at_infinity | active;
 }
 

@@ -65,6 +65,14 @@ void for_lanes(Mask m, F&& f) {
     for (std::uint32_t bits = lane_bits(m); bits != 0; bits &= bits - 1) f(std::countr_zero(bits));
 }
 
+/// Has the addresses base + index of some lanes fetched into the cache.
+template <class T>
+void prefetch(const T* base, Mask m, Int32 index) {
+    alignas(4 * kLanes) IntLanes lanes;
+    index.store(lanes);
+    for_lanes(m, [&](int i) { __builtin_prefetch(base + lanes[i]); });
+}
+
 /// The value of the first lane of a mask, in all lanes. @pre any(m)
 [[nodiscard]] inline Int32 first_lane(Mask m, Int32 v) {
     alignas(4 * kLanes) IntLanes lanes;

@@ -33,6 +33,34 @@ struct TrianglePack {
     return t;
 }
 
+/// Of the lanes that met a mesh. @param hit  lanes that met something
+[[nodiscard]] inline Mask met_mesh(const Scene& scene, Mask hit, Int32 geometry, Int32 primitive, Int32& triangle) {
+    const GeometryRecord* records = scene.geometries.data();
+    const Int32 g = select(hit, geometry, Int32(0));
+    triangle = gather_int(records, offsetof(GeometryRecord, first), g) + primitive;
+    return hit & ((gather_int(records, 0, g) & Int32(0xff)) == Int32(static_cast<int>(GeometryKind::mesh)));
+}
+/// Has fetched into the cache what gather_triangle will read first.
+inline void prefetch_triangles(const Scene& scene, Mask hit, Int32 geometry, Int32 primitive) {
+    Int32 triangle;
+    const Mask mesh = met_mesh(scene, hit, geometry, primitive, triangle);
+    prefetch(scene.triangles.data(), mesh, triangle);
+}
+/// And once that is there, what it reads then.
+template <EffectSet kEffects>
+void prefetch_vertices(const Scene& scene, Mask hit, Int32 geometry, Int32 primitive) {
+    Int32 triangle;
+    const Mask mesh = met_mesh(scene, hit, geometry, primitive, triangle);
+    const Int32 at = select(mesh, triangle, Int32(0)) * Int32(3);
+    if (!any(mesh)) return;
+    for (int i = 0; i < 3; ++i) {
+        const Int32 vertex = gather(reinterpret_cast<const std::int32_t*>(scene.triangles.data()), at + Int32(i));
+        prefetch(scene.positions.data(), mesh, vertex);
+        if constexpr (kEffects.has(Effect::shading_normals))
+            if (!scene.normals.empty()) prefetch(scene.normals.data(), mesh, vertex);
+    }
+}
+
 /// @param word  first word of the geometries' records
 template <EffectSet kEffects>
 [[nodiscard]] SurfacePack triangle_surface_pack(const Scene& scene, const TrianglePack& t, Int32 word, Mask active, Vec2<Float> b) {

@@ -1,11 +1,13 @@
 #include <koksma/scene/environment_map.h>
-#include <koksma/simd/elementary.h>
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 namespace koksma {
 
@@ -38,8 +40,13 @@ EnvironmentMap::EnvironmentMap(const MapEnvironment& description) : width_(descr
     // A cell lies between four texels; its weight is their mean times its solid angle, so it is positive wherever the
     // interpolated radiance is.
     const int rows = height_ - 1;
-    for (int y = 0; y <= rows; ++y) row_cos_.push_back(std::cos(kPiDouble * y / rows));
-    const auto band = [&](int y) { return 2.0 * kPiDouble * (row_cos_[y] - row_cos_[y + 1]); };  // solid angle of a row of cells
+    std::vector<double> cosines;
+    for (int y = 0; y <= rows; ++y) {
+        cosines.push_back(std::cos(kPiDouble * y / rows));
+        const double sine = std::sin(0.5 * kPiDouble * y / rows);
+        half_sine2_.push_back(static_cast<float>(sine * sine));
+    }
+    const auto band = [&](int y) { return 2.0 * kPiDouble * (cosines[y] - cosines[y + 1]); };  // solid angle of a row of cells
     std::vector<double> row_weights, weights(static_cast<std::size_t>(width_));
     Vec3d sum;
     for (int y = 0; y < rows; ++y) {
@@ -51,30 +58,40 @@ EnvironmentMap::EnvironmentMap(const MapEnvironment& description) : width_(descr
             row_sum += weights[x];
             sum += cell * (band(y) / width_);
         }
-        columns_.emplace_back(weights);
+        columns_.add_row(weights);
         row_weights.push_back(row_sum);
+        black_ = black_ && !(row_sum > 0.0);
     }
-    rows_ = DiscreteDistribution(row_weights);
-    cell_pdf_.reserve(static_cast<std::size_t>(width_) * rows);
-    for (int y = 0; y < rows; ++y)
-        for (int x = 0; x < width_; ++x) {
-            const float probability = is_black() ? 0.0f : rows_.probability(static_cast<std::uint32_t>(y)) * columns_[y].probability(static_cast<std::uint32_t>(x));
-            cell_pdf_.push_back(probability / (static_cast<float>(band(y)) / static_cast<float>(width_)));
-        }
+    const auto begin = rows_.add_row(row_weights);
+    for (int y = 0; y < rows; ++y) {
+        const double row_parts = row_weights[y] > 0.0 ? begin[y + 1] - begin[y] : 0;
+        row_density_.push_back(static_cast<float>(row_parts / kWhole / kWhole * width_ / band(y)));
+    }
     mean_ = to_float(sum * (1.0 / (4.0 * kPiDouble)));
 }
 
-Vec3f EnvironmentMap::sample(Vec2f u) const noexcept {
-    const DiscreteSample row = rows_.sample(u.y);
-    const DiscreteSample column = columns_[row.index].sample(u.x);
-    // Uniform in solid angle within the cell: linear in azimuth and in the cosine.
-    const double c0 = row_cos_[row.index], c1 = row_cos_[row.index + 1];
-    // In double: by the poles of a large map a row of cells spans only a few floats of the cosine.
-    const double c = c0 + (c1 - c0) * row.u, sin2 = (1.0 - c) * (1.0 + c);
-    const auto cos_theta = static_cast<float>(c), sin_theta = static_cast<float>(std::sqrt(sin2 > 0.0 ? sin2 : 0.0));
-    const SinCos phi = sincos_turns((static_cast<float>(column.index) + column.u + 0.5f) / static_cast<float>(width_));
-    const Vec3f v{sin_theta * phi.sin, cos_theta, -sin_theta * phi.cos};
-    return axis_x_ * v.x + axis_y_ * v.y + axis_z_ * v.z;
+std::span<const std::int32_t> EnvironmentMap::Distributions::add_row(std::span<const double> weights) {
+    entries_ = static_cast<std::int32_t>(weights.size());
+    parts_ = static_cast<std::int32_t>(std::bit_ceil(weights.size()));
+    const std::size_t first = begin_.size();
+    // One part to each weight that is not zero, the rest in proportion.
+    const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
+    const auto positive = static_cast<std::int32_t>(std::count_if(weights.begin(), weights.end(), [](double w) { return w > 0.0; }));
+    double sum = 0.0;
+    std::int32_t before = 0;
+    for (const double w : weights) {
+        begin_.push_back(before + (total > 0.0 ? static_cast<std::int32_t>(sum / total * (kWhole - positive)) : 0));
+        sum += w;
+        before += w > 0.0 ? 1 : 0;
+    }
+    begin_.push_back(kWhole);
+    const std::span<const std::int32_t> begin = std::span(begin_).subspan(first);
+    std::int32_t i = 0;
+    for (std::int32_t part = 0; part <= parts_; ++part) {
+        while (i + 1 < entries_ && begin[static_cast<std::size_t>(i + 1)] <= part * (kWhole / parts_)) ++i;
+        guide_.push_back(i);
+    }
+    return begin;
 }
 
 }  // namespace koksma

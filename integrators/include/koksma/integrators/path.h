@@ -72,13 +72,12 @@ template <EffectSet kEffects, class Observer>
         if (!hit.valid()) {
             if constexpr (kEffects.has(Effect::environment)) {
                 if (scene.environment_light >= 0 && !(depth == 0 && settings.hide_emitters)) {
-                    const Vec3f le = environment_radiance<kEffects>(scene, ray.d);
+                    const EnvironmentValue sky = environment_value(scene, ray.d);
                     float weight = 1.0f;
                     if (!last_was_delta)
-                        weight = power_heuristic(pdf_bsdf, environment_pdf<kEffects>(scene, ray.d) *
-                                                               light_probability(static_cast<std::uint32_t>(scene.environment_light)));
-                    radiance += beta * le * weight;
-                    observer.escaped(ray.d, beta * le * weight, weight);
+                        weight = power_heuristic(pdf_bsdf, sky.pdf_w * light_probability(static_cast<std::uint32_t>(scene.environment_light)));
+                    radiance += beta * sky.radiance * weight;
+                    observer.escaped(ray.d, beta * sky.radiance * weight, weight);
                 }
             }
             break;

@@ -10,3 +10,4 @@
 #include <koksma/scene/light_maths.h>
 #include <koksma/scene/camera.h>
 #include <koksma/scene/environment_value.h>
+#include <koksma/scene/environment_direction.h>

@@ -2,10 +2,11 @@
 // Light from infinity out of a latitude-longitude image.
 
 #include <koksma/scene/description.h>
-#include <koksma/scene/distribution.h>
+#include <koksma/scene/environment_direction.h>
 #include <koksma/scene/environment_value.h>
 #include <koksma/math/vec3.h>
 
+#include <span>
 #include <vector>
 
 namespace koksma {
@@ -17,22 +18,36 @@ class EnvironmentMap {
 public:
     explicit EnvironmentMap(const MapEnvironment& description);
 
-    /// For environment_value(): radiance and density of a direction.
-    [[nodiscard]] EnvironmentTable table() const noexcept { return {width_, height_, texels_.data(), cell_pdf_.data(), axis_x_, axis_y_, axis_z_}; }
-    [[nodiscard]] bool is_black() const noexcept { return !(rows_.total() > 0.0); }
-    /// Draws a direction by cells; its density is environment_value's. @pre  !is_black()
-    [[nodiscard]] Vec3f sample(Vec2f u) const noexcept;
+    /// For environment_radiance() and environment_density().
+    [[nodiscard]] EnvironmentTable table() const noexcept { return {width_, height_, texels_.data(), columns_.table().begin, row_density_.data(), axis_x_, axis_y_, axis_z_}; }
+    [[nodiscard]] bool is_black() const noexcept { return black_; }
+    /// For environment_direction(): draws by cells. @pre  !is_black()
+    [[nodiscard]] EnvironmentCells cells() const noexcept {
+        return {rows_.table(), columns_.table(), half_sine2_.data(), axis_x_, axis_y_, axis_z_};
+    }
     /// Mean radiance over the sphere.
     [[nodiscard]] Vec3f mean_radiance() const noexcept { return mean_; }
 
 private:
+    /// The memory of an InversionTable.
+    class Distributions {
+    public:
+        /// @param weights  of one row, finite, >= 0. @return  the parts of kWhole that each has, the whole of all
+        std::span<const std::int32_t> add_row(std::span<const double> weights);
+        [[nodiscard]] InversionTable table() const noexcept { return {entries_, parts_, begin_.data(), guide_.data()}; }
+
+    private:
+        std::int32_t entries_ = 0, parts_ = 0;
+        std::vector<std::int32_t> begin_, guide_;
+    };
+
     int width_, height_;             ///< cells per row (wrapping), rows of texels
     std::vector<Vec3f> texels_;      ///< (height, width + 1): the first column is repeated at the end
     Vec3f axis_x_, axis_y_, axis_z_; ///< rows of world-to-map
-    std::vector<double> row_cos_;    ///< cosine of the polar angle of each row of texels
-    std::vector<float> cell_pdf_;
-    DiscreteDistribution rows_;
-    std::vector<DiscreteDistribution> columns_;
+    std::vector<float> half_sine2_;  ///< sin^2 of half the polar angle of each row of texels
+    std::vector<float> row_density_;
+    Distributions rows_, columns_;
+    bool black_ = true;
     Vec3f mean_{0.0f};
 };
 

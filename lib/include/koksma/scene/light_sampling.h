@@ -24,11 +24,18 @@ template <EffectSet kEffects>
     return texture_value<kEffects>(scene, scene.lights[static_cast<std::size_t>(light)].radiance, s.uv);
 }
 
-template <EffectSet kEffects>
-[[nodiscard]] Vec3f environment_radiance(const Scene& scene, Vec3f d) noexcept {
-    if (scene.environment_light < 0) return Vec3f{0.0f};
-    if (scene.environment_map) return environment_value(scene.environment_map->table(), d).radiance;
-    return scene.lights[static_cast<std::size_t>(scene.environment_light)].radiance.constant;
+/// What arrives from infinity.
+struct EnvironmentValue {
+    Vec3f radiance;
+    float pdf_w;  ///< with which sample_light draws the direction, per steradian
+};
+
+/// @pre there is an environment
+[[nodiscard]] inline EnvironmentValue environment_value(const Scene& scene, Vec3f d) noexcept {
+    if (!scene.environment_map) return {scene.lights[static_cast<std::size_t>(scene.environment_light)].radiance.constant, 0.25f * kInvPi};
+    const EnvironmentTable table = scene.environment_map->table();
+    const auto place = environment_place(table, d);
+    return {environment_radiance(table, place), environment_density(table, place)};
 }
 
 /// A sphere is sampled by the cone that it fills, from outside; one that shines inwards, by area.
@@ -54,11 +61,6 @@ template <EffectSet kEffects>
         }
     const Vec3f d = s.p - p;
     return area_to_solid_angle(dot(d, d), std::fabs(dot(s.ng, wi)), light.area_of(triangle));
-}
-
-template <EffectSet kEffects>
-[[nodiscard]] float environment_pdf(const Scene& scene, Vec3f d) noexcept {
-    return scene.environment_map ? environment_value(scene.environment_map->table(), d).pdf_w : 0.25f * kInvPi;
 }
 
 namespace detail {
@@ -134,8 +136,8 @@ template <EffectSet kEffects>
                 return {d, light.radiance.constant, 0.25f * kInvPi, false, true, d};
             }
             if (scene.environment_map->is_black()) return {};
-            const Vec3f d = scene.environment_map->sample(u);
-            const auto value = environment_value(scene.environment_map->table(), d);
+            const Vec3f d = environment_direction(scene.environment_map->cells(), u);
+            const EnvironmentValue value = environment_value(scene, d);
             if (!(value.pdf_w > 0.0f)) return {};
             return {d, value.radiance, value.pdf_w, false, true, d};
         }

@@ -55,6 +55,7 @@ constexpr void assign(bool m, T& dst, const T& src) noexcept {
 [[nodiscard]] constexpr float real_of(std::int32_t bits) noexcept { return std::bit_cast<float>(bits); }
 /// base[index]
 [[nodiscard]] constexpr float gather(const float* base, std::int32_t index) noexcept { return base[index]; }
+[[nodiscard]] constexpr std::int32_t gather(const std::int32_t* base, std::int32_t index) noexcept { return base[index]; }
 /// x << n and arithmetic x >> n.
 template <int n>
 [[nodiscard]] constexpr std::int32_t shift_left(std::int32_t x) noexcept {
