@@ -127,7 +127,7 @@ def _legend_text(sampler: SamplerResult) -> str:
     if sampler.slope is None:
         return f"{sampler.label}\u2002(no fit)"
     estimate = sampler.slope.estimate
-    return f"{sampler.label}\u2002{formats.fixed(estimate.value)} {formats.interval(estimate, formats.fixed)}".rstrip()
+    return f"{sampler.label}\u2002{formats.slope(estimate.value)} {formats.interval(estimate, formats.slope)}".rstrip()
 
 
 def _add_to_legend(axes: Axes, look: Style, text: str) -> None:
