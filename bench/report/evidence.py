@@ -154,7 +154,7 @@ def spectrum_figure(evidence: Evidence, styles: dict[str, Style], key: str) -> M
             lo, hi = min(ends) / 1.3, max(ends) * 1.3
             axes.set_ylim(lo, hi)
             set_log_ticks(axes.yaxis, lo, hi)
-        legend = axes.legend(loc="lower left", borderaxespad=0.2)
+        legend = axes.legend(loc="best", borderaxespad=0.2)
         for text in legend.get_texts():
             text.set_parse_math(False)
         return inline_svg(figure, key, "Power of the error by frequency for " + ", ".join(i.label for i in evidence.images))

@@ -6,6 +6,7 @@ from markupsafe import Markup
 from matplotlib import style
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 
 from . import formats
@@ -29,17 +30,20 @@ def overview_figure(summary: Summary, styles: dict[str, Style], key: str) -> Mar
                           "slope, with intervals; the numbers are in the table below")
 
 
-def overview_figure_of(summary: Summary, styles: dict[str, Style], width_in: float, font_size: float) -> Figure:
+def overview_figure_of(summary: Summary, styles: dict[str, Style], width_in: float, font_size: float, with_key: bool = False) -> Figure:
     """The figure itself. Draw and save inside matplotlib.style.context."""
+    labels = {sampler.sampler: sampler.label for scene in summary.scenes for sampler in scene.samplers}
+    across = max(1, min(len(labels), int(width_in / 1.55)))
+    key_in = 0.1 + 0.2 * -(-len(labels) // across) if with_key else 0.0
     names = [scene.name for scene in summary.scenes]
     row_in = max(_ROW_IN, 0.11 * max(len(scene.samplers) for scene in summary.scenes))
-    height = 0.95 + row_in * len(names)
+    height = 0.95 + key_in + row_in * len(names)
     left = max(map(len, names)) * font_size * 0.62 / 72 / width_in + 0.015  # as wide as its names
     figure = Figure(figsize=(width_in, height))
     bottom, tall = 0.55 / height, row_in * len(names) / height
     middle = left + 0.57 * (1 - left)
     gains = figure.add_axes((left, bottom, middle - left - 0.02, tall), xscale="log")
-    slopes = figure.add_axes((middle + 0.02, bottom, 1 - middle - 0.035, tall), sharey=gains)
+    slopes = figure.add_axes((middle + 0.02, bottom, 1 - middle - 0.02 - 0.22 / width_in, tall), sharey=gains)
     _gains(gains, summary, styles)
     _slopes(slopes, summary, styles)
     for axes in (gains, slopes):
@@ -52,6 +56,10 @@ def overview_figure_of(summary: Summary, styles: dict[str, Style], width_in: flo
     for text in gains.get_yticklabels():
         text.set_parse_math(False)
     slopes.tick_params(axis="y", labelleft=False)
+    if with_key:
+        handles = [Line2D([], [], color=styles[name].color, marker=styles[name].marker, markersize=5, linestyle="none", label=label) for name, label in labels.items()]
+        for text in figure.legend(handles=handles, loc="upper center", ncols=across, frameon=False).get_texts():
+            text.set_parse_math(False)
     return figure
 
 

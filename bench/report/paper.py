@@ -43,7 +43,7 @@ def write_paper(summary: Summary, styles: dict[str, Style], choice: Choice, fold
         for against in AXES:
             save(f"{scene.name}-{against}", lambda: error_panels([scene], styles, against, width, 1))
     save("rates", lambda: error_panels(summary.scenes, styles, "samples", 2 * width, min(3, len(summary.scenes))))
-    save("gains", lambda: overview_figure_of(summary, styles, 2 * width, choice.font_size))
+    save("gains", lambda: overview_figure_of(summary, styles, 2 * width, choice.font_size, with_key=True))
     for name, text in (("points.csv", points_csv(summary)), ("gains.tex", gains_tex(summary)), ("times.tex", times_tex(summary))):
         written.append(folder / name)
         written[-1].write_text(text, encoding="utf-8", newline="\n")

@@ -17,7 +17,7 @@ def progressive_figure(scene: Scene, styles: dict[str, Style], key: str) -> Mark
         axes = figure.add_axes((0.115, 0.15, 0.865, 0.74), xscale="log", yscale="log")
         axes.set_title("A longer render, stopped early", x=-0.11)
         axes.set_xlabel("stopped at, samples per pixel (spp)")
-        axes.set_ylabel("RMSE / RMSE of renders planned for it")
+        axes.set_ylabel("RMSE / native RMSE")
         axes.grid(True, which="major")
         axes.axhline(1, color="#4d4d4d", linewidth=0.8, zorder=1)
         ends, spps = [0.95, 1.05], []
