@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.image import imsave
 
 from .check import Node
+from .figures import MOST_IN_KEY
 from .model import Estimate, Picture
 from .palette import Style
 from .pictures import load_array
@@ -154,9 +155,9 @@ def spectrum_figure(evidence: Evidence, styles: dict[str, Style], key: str) -> M
             lo, hi = min(ends) / 1.3, max(ends) * 1.3
             axes.set_ylim(lo, hi)
             set_log_ticks(axes.yaxis, lo, hi)
-        legend = axes.legend(loc="best", borderaxespad=0.2)
-        for text in legend.get_texts():
-            text.set_parse_math(False)
+        if len(evidence.images) <= MOST_IN_KEY:
+            for text in axes.legend(loc="best", borderaxespad=0.2).get_texts():
+                text.set_parse_math(False)
         return inline_svg(figure, key, "Power of the error by frequency for " + ", ".join(i.label for i in evidence.images))
 
 

@@ -8,7 +8,7 @@ from markupsafe import Markup
 from . import evidence as behind
 from . import formats, tables
 from .counts_layouts import gain_at_counts, layout_spread
-from .figures import error_vs_seconds, error_vs_spp
+from .figures import MOST_IN_KEY, error_vs_seconds, error_vs_spp
 from .progressive import progressive_figure
 from .model import Picture, Scene, Summary
 from .overview import overview_figure
@@ -30,6 +30,7 @@ def render_page(summary: Summary) -> str:
         "columns": columns, "tally": tables.tally(rows), "rows": list(zip(summary.scenes, rows)),
         "overview": overview_figure(summary, styles, "overview"),
         "scenes": [_scene_context(scene, styles, f"scene{i}") for i, scene in enumerate(summary.scenes, 1)],
+        "anchors": {scene.name: f"scene{i}" for i, scene in enumerate(summary.scenes, 1)}, "grid_titles": _grid_titles(summary),
         "has_targets": any(tables.targets(scene) for scene in summary.scenes),
         "colour_maps": colour_maps_json(), "verdicts": _count_verdicts(summary),
         "has_predictions": any(scene.predictions for scene in summary.scenes),
@@ -45,9 +46,10 @@ def _scene_context(scene: Scene, styles: dict[str, Style], key: str) -> dict:
     widest = max((picture.width for picture in crops), default=0)
     evidence = scene.evidence or behind.Evidence((), {}, 0, (), ())
     apart, alike = behind.told_apart(evidence)
-    window = window_of_difference(scene)
+    window, winner = window_of_difference(scene), tables.winner(scene)
     return {
-        "window": window, "viewer": viewer_json(scene, window), "winner": tables.winner(scene), "overtaking": tables.overtaking(scene),
+        "window": window, "viewer": viewer_json(scene, window, winner.leaders[0].sampler if winner else ""), "winner": winner, "many": len(scene.samplers) > MOST_IN_KEY,
+        "pair_matrix": tables.pair_matrix(scene) if evidence.pairs else [], "overtaking": tables.overtaking(scene),
         "progressive_figure": progressive_figure(scene, styles, f"{key}-progressive") if any(s.progressive for s in scene.samplers) else "",
         "evidence": evidence, "apart": apart, "alike": alike, "labels": {s.sampler: s.label for s in scene.samplers},
         "spectrum_figure": behind.spectrum_figure(evidence, styles, f"{key}-spectrum") if evidence.images else "",
@@ -62,6 +64,14 @@ def _scene_context(scene: Scene, styles: dict[str, Style], key: str) -> dict:
         "count_rows": tables.count_rows(scene),
         "count_figure": gain_at_counts(scene, styles, f"{key}-counts") if any(s.counts for s in scene.samplers) else "",
     }
+
+
+def _grid_titles(summary: Summary) -> dict[str, dict[str, str | None]]:
+    """What stands beside a scene's name in each table of the overview; None: the scene is not in it."""
+    spps = {scene.name: tables.gain_spp(scene) for scene in summary.scenes}
+    wanted = {scene.name: tables.common_target(scene) for scene in summary.scenes}
+    return {"gain": {name: f"at {formats.count(spp)} spp" if spp else "" for name, spp in spps.items()}, "time": dict.fromkeys(spps, ""),
+            "target": {name: f"relMSE {formats.short(target)}" if target else None for name, target in wanted.items()}}
 
 
 def _count_verdicts(summary: Summary) -> dict[str, int]:

@@ -4,6 +4,7 @@ from markupsafe import Markup
 from matplotlib import style
 from matplotlib.figure import Figure
 
+from .figures import MOST_IN_KEY
 from .model import Scene
 from .palette import Style
 from .svg import drawing, inline_svg
@@ -40,7 +41,7 @@ def progressive_figure(scene: Scene, styles: dict[str, Style], key: str) -> Mark
         lo, hi = min(ends) / 1.03, max(ends) * 1.03
         axes.set_ylim(lo, hi)
         set_log_ticks(axes.yaxis, lo, hi)
-        legend = axes.legend(loc="best", borderaxespad=0.2)
-        for text in legend.get_texts():
-            text.set_parse_math(False)
+        if len(scene.samplers) <= MOST_IN_KEY:
+            for text in axes.legend(loc="best", borderaxespad=0.2).get_texts():
+                text.set_parse_math(False)
         return inline_svg(figure, key, f"{scene.name}: RMSE of progressive renders over that of native ones; the numbers are in the table below")

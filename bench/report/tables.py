@@ -94,6 +94,22 @@ def winner(scene: Scene) -> Winner | None:
     return Winner(leaders, results[nearest.b if nearest.a == name else nearest.a], _better_first(nearest, name), nearest.spp)
 
 
+def pair_matrix(scene: Scene) -> list[tuple[SamplerResult, list[tuple[str, Estimate | None]]]]:
+    """Samplers by samplers, those that beat most first: "+" where the row has less MSE than the column, "\u2212" where more, "=" where
+    they are not told apart, "" without a comparison; each with the MSE of the column over that of the row."""
+    pairs = {frozenset((pair.a, pair.b)): pair for pair in scene.evidence.pairs}
+    beats = {result.sampler: sum(pair.better == result.sampler for pair in pairs.values()) for result in scene.samplers}
+    order = sorted((result for result in scene.samplers if any(result.sampler in pair for pair in pairs)), key=lambda result: -beats[result.sampler])
+
+    def cell(row: SamplerResult, column: SamplerResult) -> tuple[str, Estimate | None]:
+        pair = pairs.get(frozenset((row.sampler, column.sampler))) if row is not column else None
+        if pair is None:
+            return "", None
+        return "=" if pair.better is None else "+" if pair.better == row.sampler else "\u2212", _better_first(pair, row.sampler)
+
+    return [(row, [cell(row, column) for column in order]) for row in order]
+
+
 def overtaking(scene: Scene) -> tuple[SamplerResult, list[Overtaking]] | None:
     """The sampler with the highest efficiency of the scene, and where each other one would be as efficient; None without pairs."""
     pairs = [pair for pair in (scene.evidence.pairs if scene.evidence else ()) if pair.a_overtakes and pair.b_overtakes and pair.ratio.value and pair.ns[0]]

@@ -34,7 +34,7 @@
     for (const select of [parts.left, parts.right])
       images.forEach((image, i) => select.append(new Option(image.label, i)));
     parts.left.value = images.length > 2 ? 1 : 0;
-    parts.right.value = images.length - 1;
+    parts.right.value = data.right;
 
     // One pixel of the crop is one pixel of this; drawImage enlarges it.
     const developed = (image) => {

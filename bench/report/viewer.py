@@ -53,9 +53,10 @@ def exposure_of(reference: np.ndarray) -> float:
     return 0.6 / float(luminance[int(0.9 * (len(luminance) - 1))]) if len(luminance) else 1.0
 
 
-def viewer_json(scene: Scene, window: Window | None) -> Markup | None:
+def viewer_json(scene: Scene, window: Window | None, right: str = "") -> Markup | None:
     """The viewer's data as JSON, safe inside a script element; None where the scene has no crops as data.
 
+    right  the sampler that is shown on the right at first; on the left is the first of the scene
     The reference is of 32-bit floats; images are their differences from it, and maps their values, as 16-bit floats in units of `top`, which
     the small errors of good samplers need.
     """
@@ -73,6 +74,7 @@ def viewer_json(scene: Scene, window: Window | None) -> Markup | None:
     height, width = reference.shape[:2]
     data = {"width": width, "height": height, "exposure": exposure_of(reference), "top": top,
             "reference": base64.b64encode(np.nan_to_num(reference).astype("<f4").tobytes()).decode(),
+            "right": next((i for i, s in enumerate(samplers, 1) if s.sampler == right), len(samplers)),
             "window": [window.x, window.y, window.width, window.height] if window else None, "images": images}
     return Markup(json.dumps(data, separators=(",", ":")).replace("<", "\\u003c"))
 
