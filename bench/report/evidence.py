@@ -11,9 +11,11 @@ from matplotlib import colormaps, style
 from matplotlib.figure import Figure
 from matplotlib.image import imsave
 
-from .check import Node, ReportError
+from .check import Node
+from .figures import MOST_IN_KEY
 from .model import Estimate, Picture
 from .palette import Style
+from .pictures import load_array
 from .svg import drawing, inline_svg
 from .ticks import set_log_ticks
 
@@ -50,6 +52,8 @@ class ImageError:
     z_median: float | None
     error: Picture
     bias: Picture
+    mse_map: np.ndarray  # (height, width), mean over replicates
+    bias_map: np.ndarray  # in standard errors
 
 
 @dataclass(frozen=True)
@@ -61,6 +65,10 @@ class Pair:
     better: str | None
     ratio: Estimate
     p_holm: float | None
+    spp: int
+    b_overtakes: Estimate | None  # ns a path below which b would be as efficient as a
+    a_overtakes: Estimate | None
+    ns: tuple[float | None, float | None]  # a path of a and of b, as measured
 
 
 @dataclass(frozen=True)
@@ -72,6 +80,7 @@ class Evidence:
     masked_pixels: int
     images: tuple[ImageError, ...]
     pairs: tuple[Pair, ...]
+    map_top: float = 1.0  # RMSE at the light end of the error maps
 
 
 def load_evidence(scene: Node, directory: Path) -> Evidence:
@@ -79,13 +88,13 @@ def load_evidence(scene: Node, directory: Path) -> Evidence:
     samplers = list(scene.at("samplers").items())
     metrics = tuple(_metrics(s) for s in samplers if "heavy_tailed" in s.value and s.value["points"])
     with_images = [s for s in samplers if s.value.get("image_error")]
-    maps = {s.at("sampler").text(): {kind: _map(s.at("image_error").at("maps").at(kind), directory) for kind in ("mse", "bias_z")} for s in with_images}
+    maps = {s.at("sampler").text(): {kind: load_array(s.at("image_error").at("maps").at(kind), directory, 2) for kind in ("mse", "bias_z")} for s in with_images}
     # One scale for all samplers of a scene: the brightest hundredth is the end of it.
     top = max((float(np.quantile(np.sqrt(m["mse"]), 0.99)) for m in maps.values()), default=1.0) or 1.0
     images = tuple(_image_error(s, maps[s.at("sampler").text()], top) for s in with_images)
     halves = scene.at("reference").value.get("between_halves") or {}
     pairs = tuple(_pair(node) for node in (scene.at("pairs").items() if "pairs" in scene.value else ()))
-    return Evidence(metrics, {k: v for k, v in halves.items() if v is not None}, scene.value.get("emitter_pixels", 0), images, pairs)
+    return Evidence(metrics, {k: v for k, v in halves.items() if v is not None}, scene.value.get("emitter_pixels", 0), images, pairs, top)
 
 
 def _estimate(node: Node) -> Estimate:
@@ -103,20 +112,10 @@ def _metrics(sampler: Node) -> Metrics:
 
 
 def _pair(node: Node) -> Pair:
-    return Pair(node.at("a").name(), node.at("b").name(), node.at("better").text_or_none(), _estimate(node.at("mse_ratio")), node.at("p_holm").number_or_none(0))
-
-
-def _map(node: Node, directory: Path) -> np.ndarray:
-    path = directory / node.name()
-    if not path.resolve().is_relative_to(directory.resolve()):
-        raise node.fail("a path inside the results directory")
-    try:
-        values = np.load(path, allow_pickle=False)
-    except (OSError, ValueError) as error:
-        raise ReportError(f"{path}: {error}, expected the NumPy file of {node.place}") from None
-    if values.ndim != 2:
-        raise ReportError(f"{path}: found shape {values.shape}, expected (height, width)")
-    return values.astype(np.float64)
+    overtakes = [node.at(f"{who}_overtakes_below_ns_per_path") for who in "ba"]
+    ns = (None, None) if overtakes[0].is_null() else tuple(overtakes[0].at(key).number_or_none(0) for key in ("ns_a", "ns_b"))
+    return Pair(node.at("a").name(), node.at("b").name(), node.at("better").text_or_none(), _estimate(node.at("mse_ratio")), node.at("p_holm").number_or_none(0),
+                node.at("spp").integer(1), *(None if o.is_null() else _estimate(o) for o in overtakes), ns)
 
 
 def _image_error(sampler: Node, maps: dict[str, np.ndarray], top: float) -> ImageError:
@@ -127,7 +126,7 @@ def _image_error(sampler: Node, maps: dict[str, np.ndarray], top: float) -> Imag
                       node.at("median_pixel_gain").number_or_none(0), node.at("bias_z_median").number_or_none(0),
                       # Perceptually uniform: equal steps look equal. The square root is an RMSE per pixel.
                       _png(colormaps["magma"](np.clip(np.sqrt(maps["mse"]) / top, 0, 1))),
-                      _png(colormaps["RdBu_r"](np.clip(np.nan_to_num(maps["bias_z"]) / 8 + 0.5, 0, 1))))
+                      _png(colormaps["RdBu_r"](np.clip(np.nan_to_num(maps["bias_z"]) / 8 + 0.5, 0, 1))), maps["mse"], maps["bias_z"])
 
 
 def _png(rgba: np.ndarray) -> Picture:
@@ -156,9 +155,9 @@ def spectrum_figure(evidence: Evidence, styles: dict[str, Style], key: str) -> M
             lo, hi = min(ends) / 1.3, max(ends) * 1.3
             axes.set_ylim(lo, hi)
             set_log_ticks(axes.yaxis, lo, hi)
-        legend = axes.legend(loc="lower left", borderaxespad=0.2)
-        for text in legend.get_texts():
-            text.set_parse_math(False)
+        if len(evidence.images) <= MOST_IN_KEY:
+            for text in axes.legend(loc="best", borderaxespad=0.2).get_texts():
+                text.set_parse_math(False)
         return inline_svg(figure, key, "Power of the error by frequency for " + ", ".join(i.label for i in evidence.images))
 
 

@@ -1,9 +1,11 @@
-"""The points of a report as files for a paper: CSV, and a LaTeX table for the package booktabs."""
+"""The points of a report as files for a paper: CSV, and LaTeX tables for the package booktabs."""
 
 import csv
 import io
+from collections.abc import Callable
 
-from .model import Estimate, Summary
+from .model import Estimate, SamplerResult, Scene, Summary, TimeTo
+from .tables import targets, time_to
 
 COLUMNS = ("scene", "sampler", "spp", "replicates", "rmse", "rmse_lo", "rmse_hi", "relmse", "relmse_lo", "relmse_hi", "cpu_seconds", "wall_seconds", "sampler_share")
 
@@ -22,19 +24,39 @@ def points_csv(summary: Summary) -> str:
 
 
 def gains_tex(summary: Summary) -> str:
-    r"""Samplers by scenes: slope and MSE gain over random, with intervals. Needs \usepackage{booktabs}."""
-    samplers = list(dict.fromkeys((s.sampler, s.label) for scene in summary.scenes for s in scene.samplers))
-    lines = [r"\begin{tabular}{l" + "rr" * len(summary.scenes) + "}", r"\toprule",
-             " & ".join(["", *(rf"\multicolumn{{2}}{{c}}{{{_escaped(scene.name)}}}" for scene in summary.scenes)]) + r" \\",
-             " & ".join(["Sampler"] + ["slope & gain"] * len(summary.scenes)) + r" \\", r"\midrule"]
-    for name, label in samplers:
-        cells = [_escaped(label)]
-        for scene in summary.scenes:
-            result = next((s for s in scene.samplers if s.sampler == name), None)
-            cells.append(_number(result.slope.estimate, 2) if result and result.slope else "--")
-            cells.append(_number(result.gain.ratio, 2) if result and result.gain else ("1" if result and result.is_baseline else "--"))
-        lines.append(" & ".join(cells) + r" \\")
+    r"""Slope and MSE gain over random with intervals, a line a scene and sampler. Needs \usepackage{booktabs}."""
+    return _table(summary, "rr", ["slope", "gain"], lambda scene, result: [
+        _number(result.slope.estimate, 3) if result.slope else "--",
+        _number(result.gain.ratio, 2) if result.gain else ("1" if result.is_baseline else "--")])
+
+
+def times_tex(summary: Summary) -> str:
+    r"""CPU seconds to reach a relMSE with intervals, never extrapolated, a line a scene and sampler. Needs \usepackage{booktabs}."""
+    wanted = sorted({target for scene in summary.scenes for target in targets(scene)}, reverse=True)
+
+    def cell(entry: TimeTo | None) -> str:
+        if entry is None or entry.seconds.value is None:
+            return "--"
+        return rf"$\leq {entry.seconds.value:.3g}$" if entry.how == "measured" else _seconds(entry.seconds)
+
+    return _table(summary, "r" * len(wanted), [f"relMSE ${target:g}$" for target in wanted], lambda scene, result: [cell(time_to(result, target)) for target in wanted])
+
+
+def _table(summary: Summary, columns: str, heads: list[str], cells: Callable[[Scene, SamplerResult], list[str]]) -> str:
+    lines = [r"\begin{tabular}{ll" + columns + "}", r"\toprule", " & ".join(["Scene", "Sampler", *heads]) + r" \\"]
+    for scene in summary.scenes:
+        lines.append(r"\midrule")
+        for i, result in enumerate(scene.samplers):
+            lines.append(" & ".join([_escaped(scene.name) if i == 0 else "", _escaped(result.label), *cells(scene, result)]) + r" \\")
     return "\n".join([*lines, r"\bottomrule", r"\end{tabular}", ""])
+
+
+def _seconds(estimate: Estimate) -> str:
+    text = f"${estimate.value:.3g}$"
+    if estimate.lo is not None or estimate.hi is not None:
+        ends = ", ".join("--" if bound is None else f"{bound:.3g}" for bound in (estimate.lo, estimate.hi))
+        text += rf" {{\scriptsize $[{ends}]$}}"
+    return text
 
 
 def _number(estimate: Estimate, decimals: int) -> str:
@@ -47,6 +69,4 @@ def _number(estimate: Estimate, decimals: int) -> str:
 
 
 def _escaped(text: str) -> str:
-    for character in "&%$#_{}":
-        text = text.replace(character, "\\" + character)
-    return text
+    return "".join({"\\": r"\textbackslash{}", "~": r"\textasciitilde{}", "^": r"\textasciicircum{}"}.get(c, "\\" + c if c in "&%$#_{}" else c) for c in text)

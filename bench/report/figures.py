@@ -18,6 +18,7 @@ from .ticks import set_log_ticks, set_value_ticks
 
 SIZE_IN = (5.75, 4.5)
 GUIDE_COLOR = "#9a9a9a"
+MOST_IN_KEY = 8  # samplers; of more the key stands on the page, once
 
 
 def error_vs_spp(scene: Scene, styles: dict[str, Style], key: str) -> Markup:
@@ -42,7 +43,7 @@ def error_vs_spp(scene: Scene, styles: dict[str, Style], key: str) -> Markup:
             _draw_guides(axes, scene)
         else:
             _without_ticks(axes.xaxis)
-        _legend(axes, "fitted slope" if any(s.slope for s in scene.samplers) else None)
+        _legend(axes, scene, "fitted slope" if any(s.slope for s in scene.samplers) else None)
         return inline_svg(figure, key, f"{scene.name}: RMSE against samples per pixel, log-log, for "
                           + ", ".join(map(_legend_text, scene.samplers)))
 
@@ -68,7 +69,7 @@ def error_vs_seconds(scene: Scene, styles: dict[str, Style], key: str) -> Markup
             set_log_ticks(axes.xaxis, lo, hi)
         else:
             _without_ticks(axes.xaxis)
-        _legend(axes, None)
+        _legend(axes, scene, None)
         return inline_svg(figure, key, f"{scene.name}: RMSE against CPU seconds, log-log, for "
                           + ", ".join(sampler.label for sampler in scene.samplers))
 
@@ -127,7 +128,7 @@ def _legend_text(sampler: SamplerResult) -> str:
     if sampler.slope is None:
         return f"{sampler.label}\u2002(no fit)"
     estimate = sampler.slope.estimate
-    return f"{sampler.label}\u2002{formats.fixed(estimate.value)} {formats.interval(estimate, formats.fixed)}".rstrip()
+    return f"{sampler.label}\u2002{formats.slope(estimate.value)} {formats.interval(estimate, formats.slope)}".rstrip()
 
 
 def _add_to_legend(axes: Axes, look: Style, text: str) -> None:
@@ -137,7 +138,9 @@ def _add_to_legend(axes: Axes, look: Style, text: str) -> None:
     line.set_label(text if not text.startswith("_") else " " + text)
 
 
-def _legend(axes: Axes, title: str | None) -> None:
+def _legend(axes: Axes, scene: Scene, title: str | None) -> None:
+    if len(scene.samplers) > MOST_IN_KEY:
+        return
     legend = axes.legend(loc="lower left", title=title, title_fontsize=8.5, alignment="left", borderaxespad=0.2)
     for text in legend.get_texts():
         text.set_parse_math(False)

@@ -45,6 +45,11 @@ def fixed(value: float | None, decimals: int = 2) -> str:
     return NONE if value is None else _dressed(f"{value:.{decimals}f}")
 
 
+def slope(value: float | None) -> str:
+    """An exponent: intervals of slopes are often narrower than a hundredth."""
+    return fixed(value, 3)
+
+
 def percent(value: float | None, decimals: int = 1) -> str:
     """A share in [0, 1] as per cent."""
     return NONE if value is None else f"{value * 100:.{decimals}f}\u2009%"

@@ -6,7 +6,7 @@ from pathlib import Path
 from . import model
 from .check import Node, ReportError
 from .evidence import load_evidence
-from .pictures import load_picture
+from .pictures import file_of, load_array, load_picture
 
 SCHEMA = 1
 
@@ -24,7 +24,8 @@ def load_summary(directory: Path) -> model.Summary:
     if not scenes:
         raise root.at("scenes").fail("at least one scene")
     _refuse_repeats(root.at("scenes"), [scene.name for scene in scenes], "a scene name used once")
-    return model.Summary(directory, _experiment(root.at("experiment")), scenes,
+    others = tuple((node.at("commit").text(), node.at("rows").integer(1)) for node in root.at("other_commits").items())
+    return model.Summary(directory, _experiment(root.at("experiment")), scenes, root.at("rows").integer(1), others,
                          root.at("invalid_samples").integer(), root.at("seconds_total").number(0))
 
 
@@ -67,7 +68,19 @@ def _scene(node: Node, directory: Path) -> model.Scene:
         reference=_reference(node.at("reference")),
         picture=load_picture(node.at("picture"), directory),
         reference_crop=load_picture(node.at("reference_crop"), directory),
-        samplers=samplers, evidence=load_evidence(node, directory))
+        samplers=samplers, reference_data=load_array(node.at("reference_data"), directory, 3),
+        reference_exr=file_of(node.at("reference_exr"), directory),
+        predictions=tuple(_prediction(item) for item in node.at("predictions").items()),
+        verdict=node.at("predictions_verdict").one_of(*VERDICTS), evidence=load_evidence(node, directory))
+
+
+VERDICTS = ("held", "refuted", "undecided", "not tested")
+
+
+def _prediction(node: Node) -> model.Prediction:
+    found = tuple(model.Finding(item.at("what").text(), _estimate(item, "value", "lo", "hi"), item.at("verdict").one_of(*VERDICTS))
+                  for item in node.at("found").items())
+    return model.Prediction(node.at("says").name(), node.at("of").one_of("slope", "gain", "order"), node.at("verdict").one_of(*VERDICTS), found)
 
 
 def _reference(node: Node) -> model.Reference:
@@ -91,7 +104,9 @@ def _sampler(node: Node, directory: Path) -> model.SamplerResult:
                                                     gain.at("spp").integer(1)),
         crop=load_picture(node.at("crop"), directory),
         crop_spp=None if node.at("crop_spp").is_null() else node.at("crop_spp").integer(1),
-        error_map=load_picture(node.at("error_map"), directory),
+        crop_data=load_array(node.at("crop_data"), directory, 3), crop_exr=file_of(node.at("crop_exr"), directory),
+        equal_time=_or_none(node.at("equal_time_vs_random"), _equal_time),
+        progressive=_or_none(node.at("progressive"), _progressive), coverage=_or_none(node.at("interval_coverage"), _coverage),
         layouts=tuple(_layouts(item) for item in _items_or_none(node.at("layouts"))),
         counts=tuple(_count(item) for item in _items_or_none(node.at("any_count"))))
 
@@ -103,6 +118,24 @@ def _point(node: Node) -> model.Point:
         relmse=_estimate(node, "relmse", "relmse_lo", "relmse_hi", least=0),
         cpu_seconds=node.at("cpu_seconds").number(0), wall_seconds=node.at("wall_seconds").number(0),
         sampler_share=node.at("sampler_share").number_or_none(0), below_floor=node.at("below_floor").flag())
+
+
+def _or_none(node: Node, read):
+    return None if node.is_null() else read(node)
+
+
+def _equal_time(node: Node) -> model.EqualTime:
+    return model.EqualTime(node.at("seconds").number(0), _estimate(node, "mse_ratio", "lo", "hi", least=0))
+
+
+def _progressive(node: Node) -> model.Progressive:
+    points = tuple((item.at("spp").integer(1), _estimate(item, "rmse", "lo", "hi", least=0)) for item in node.at("points").items())
+    return model.Progressive(node.at("planned_spp").integer(1), node.at("renders").integer(1), points,
+                             _or_none(node.at("slope"), lambda slope: _estimate(slope, "value", "lo", "hi")))
+
+
+def _coverage(node: Node) -> model.Coverage:
+    return model.Coverage(node.at("replicates").integer(1), *(node.at(key).number(0) for key in ("rmse", "slope", "gain")))
 
 
 def _items_or_none(node: Node) -> list[Node]:

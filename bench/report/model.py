@@ -64,6 +64,53 @@ class Gain:
 
 
 @dataclass(frozen=True)
+class EqualTime:
+    """MSE of random over MSE of this sampler after equally many CPU seconds, the most that both were measured for."""
+
+    seconds: float
+    ratio: Estimate
+
+
+@dataclass(frozen=True)
+class Progressive:
+    """Renders to `planned_spp`, read at every spp: points as (spp, RMSE), and a slope whose interval leaves out whole renders."""
+
+    planned_spp: int
+    renders: int
+    points: tuple[tuple[int, Estimate], ...]
+    slope: Estimate | None
+
+
+@dataclass(frozen=True)
+class Coverage:
+    """What nominal intervals of heavy-tailed errors were seen to cover, as fractions, with so many replicates."""
+
+    replicates: int
+    rmse: float
+    slope: float
+    gain: float
+
+
+@dataclass(frozen=True)
+class Finding:
+    """One figure that a prediction rests on."""
+
+    what: str
+    figure: Estimate
+    verdict: str
+
+
+@dataclass(frozen=True)
+class Prediction:
+    """What the experiment said beforehand; verdict: held, refuted, undecided (an interval reaches over a bound) or not tested."""
+
+    says: str
+    of: str
+    verdict: str
+    found: tuple[Finding, ...]
+
+
+@dataclass(frozen=True)
 class LayoutSpread:
     """One sampler at one spp under permuted layouts of its dimensions; `each` begins with the layout as planned."""
 
@@ -100,7 +147,11 @@ class SamplerResult:
     gain: Gain | None
     crop: Picture | None
     crop_spp: int | None
-    error_map: Picture | None
+    crop_data: object  # of viewer.py: linear radiance, shape (height, width, 3); None where no image was kept
+    crop_exr: Path | None
+    equal_time: EqualTime | None
+    progressive: Progressive | None
+    coverage: Coverage | None  # not None: the errors look heavy-tailed
     layouts: tuple[LayoutSpread, ...]
     counts: tuple[CountGain, ...]
 
@@ -140,6 +191,10 @@ class Scene:
     picture: Picture | None
     reference_crop: Picture | None
     samplers: tuple[SamplerResult, ...]
+    reference_data: object
+    reference_exr: Path | None
+    predictions: tuple[Prediction, ...]
+    verdict: str
     evidence: object = None  # of evidence.py, which is made of these values
 
 
@@ -168,5 +223,7 @@ class Summary:
     directory: Path
     experiment: Experiment
     scenes: tuple[Scene, ...]
+    rows: int
+    other_commits: tuple[tuple[str, int], ...]  # of rows that an earlier program rendered
     invalid_samples: int
     seconds_total: float

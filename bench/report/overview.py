@@ -6,6 +6,7 @@ from markupsafe import Markup
 from matplotlib import style
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 
 from . import formats
@@ -23,32 +24,48 @@ def overview_figure(summary: Summary, styles: dict[str, Style], key: str) -> Mar
 
     A sampler without a gain or a slope in a scene has no mark there.
     """
-    names = [scene.name for scene in summary.scenes]
-    height = 0.95 + _ROW_IN * len(names)
     with style.context(drawing(key)):
-        figure = Figure(figsize=(_WIDTH_IN, height))
-        bottom, tall = 0.55 / height, _ROW_IN * len(names) / height
-        gains = figure.add_axes((0.085, bottom, 0.50, tall), xscale="log")
-        slopes = figure.add_axes((0.625, bottom, 0.36, tall), sharey=gains)
-        _gains(gains, summary, styles)
-        _slopes(slopes, summary, styles)
-        for axes in (gains, slopes):
-            axes.set_ylim(len(names) - 0.5, -0.5)
-            axes.set_yticks(range(len(names)), names)
-            axes.tick_params(axis="y", length=0)
-            axes.spines["left"].set_visible(False)
-            for row in range(1, len(names)):
-                axes.axhline(row - 0.5, color="#e6e6e6", linewidth=0.6, zorder=0)
-        for text in gains.get_yticklabels():
-            text.set_parse_math(False)
-        slopes.tick_params(axis="y", labelleft=False)
+        figure = overview_figure_of(summary, styles, _WIDTH_IN, 9.0)
         return inline_svg(figure, key, "For each scene and sampler, the MSE gain over random and the fitted "
                           "slope, with intervals; the numbers are in the table below")
 
 
+def overview_figure_of(summary: Summary, styles: dict[str, Style], width_in: float, font_size: float, with_key: bool = False) -> Figure:
+    """The figure itself. Draw and save inside matplotlib.style.context."""
+    labels = {sampler.sampler: sampler.label for scene in summary.scenes for sampler in scene.samplers}
+    across = max(1, min(len(labels), int(width_in / 1.55)))
+    key_in = 0.1 + 0.2 * -(-len(labels) // across) if with_key else 0.0
+    names = [scene.name for scene in summary.scenes]
+    row_in = max(_ROW_IN, 0.11 * max(len(scene.samplers) for scene in summary.scenes))
+    height = 0.95 + key_in + row_in * len(names)
+    left = max(map(len, names)) * font_size * 0.62 / 72 / width_in + 0.015  # as wide as its names
+    figure = Figure(figsize=(width_in, height))
+    bottom, tall = 0.55 / height, row_in * len(names) / height
+    middle = left + 0.57 * (1 - left)
+    gains = figure.add_axes((left, bottom, middle - left - 0.02, tall), xscale="log")
+    slopes = figure.add_axes((middle + 0.02, bottom, 1 - middle - 0.02 - 0.22 / width_in, tall), sharey=gains)
+    _gains(gains, summary, styles)
+    _slopes(slopes, summary, styles)
+    for axes in (gains, slopes):
+        axes.set_ylim(len(names) - 0.5, -0.5)
+        axes.set_yticks(range(len(names)), names)
+        axes.tick_params(axis="y", length=0)
+        axes.spines["left"].set_visible(False)
+        for row in range(1, len(names)):
+            axes.axhline(row - 0.5, color="#e6e6e6", linewidth=0.6, zorder=0)
+    for text in gains.get_yticklabels():
+        text.set_parse_math(False)
+    slopes.tick_params(axis="y", labelleft=False)
+    if with_key:
+        handles = [Line2D([], [], color=styles[name].color, marker=styles[name].marker, markersize=5, linestyle="none", label=label) for name, label in labels.items()]
+        for text in figure.legend(handles=handles, loc="upper center", ncols=across, frameon=False).get_texts():
+            text.set_parse_math(False)
+    return figure
+
+
 def _gains(axes: Axes, summary: Summary, styles: dict[str, Style]) -> None:
     axes.set_title("MSE gain over random, at the largest spp")
-    axes.set_xlabel("MSE of random / MSE of the sampler\u2003(log axis; right of 1 is better)")
+    axes.set_xlabel("MSE of random / MSE of the sampler (right of 1 is better)")
     ends = [0.9, 1.2]
     for row, scene in enumerate(summary.scenes):
         for sampler, y in zip(scene.samplers, _heights(row, len(scene.samplers))):

@@ -1,8 +1,10 @@
-"""PNG files into data URIs: a report carries its pictures with it."""
+"""Pictures and arrays that a summary names; PNG files into data URIs: a report carries its pictures with it."""
 
 import base64
 import struct
 from pathlib import Path
+
+import numpy as np
 
 from .check import Node, ReportError
 from .model import Picture
@@ -12,18 +14,42 @@ _WIDEST_ROW = 1184  # CSS pixels: the page's column, style.css
 _GAP = 16
 
 
-def load_picture(node: Node, directory: Path) -> Picture | None:
-    """Loads the PNG file that a node names, relative to the results directory; None for null.
+def file_of(node: Node, directory: Path) -> Path | None:
+    """The file that a node names, relative to the results directory; None for null.
 
-    Raises ReportError when the file is missing, not a PNG, or outside the directory.
+    Raises ReportError when it is outside: a report is passed on to others, and must not carry files from elsewhere on the disk.
     """
     name = node.text_or_none()
     if name is None:
         return None
     path = directory / name
-    # A report is passed on to others: it must not carry files from elsewhere on the disk.
     if not path.resolve().is_relative_to(directory.resolve()):
         raise node.fail("a path inside the results directory")
+    return path
+
+
+def load_array(node: Node, directory: Path, dimensions: int) -> np.ndarray | None:
+    """The NumPy file that a node names; None for null. Raises ReportError when it is missing or of another number of dimensions."""
+    path = file_of(node, directory)
+    if path is None:
+        return None
+    try:
+        values = np.load(path, allow_pickle=False)
+    except (OSError, ValueError) as error:
+        raise ReportError(f"{path}: {error}, expected the NumPy file of {node.place}") from None
+    if values.ndim != dimensions or 0 in values.shape:
+        raise ReportError(f"{path}: found shape {values.shape}, expected {dimensions} dimensions")
+    return values.astype(np.float64)
+
+
+def load_picture(node: Node, directory: Path) -> Picture | None:
+    """Loads the PNG file that a node names, relative to the results directory; None for null.
+
+    Raises ReportError when the file is missing, not a PNG, or outside the directory.
+    """
+    path = file_of(node, directory)
+    if path is None:
+        return None
     try:
         data = path.read_bytes()
     except (OSError, ValueError) as error:

@@ -5,7 +5,8 @@ Nothing is estimated here; an interval that includes 1 was computed by the progr
 
 from dataclasses import dataclass
 
-from .model import CountGain, Gain, SamplerResult, Scene, Summary, TimeTo
+from .evidence import Pair
+from .model import CountGain, Estimate, Gain, SamplerResult, Scene, Summary, TimeTo
 
 
 @dataclass(frozen=True)
@@ -19,6 +20,28 @@ class OverviewCell:
     result: SamplerResult
     verdict: str
     mark: str = ""
+
+
+@dataclass(frozen=True)
+class Winner:
+    """Who has the least MSE of a scene: those whom nobody is told to beat, at the largest common spp.
+
+    runner_up  the nearest of the others, None where nobody is beaten by the winner alone; margin: its MSE over the winner's
+    """
+
+    leaders: tuple[SamplerResult, ...]
+    runner_up: SamplerResult | None
+    margin: Estimate | None
+    spp: int
+
+
+@dataclass(frozen=True)
+class Overtaking:
+    """What a path of a sampler might cost for it to be as efficient as the winner: below `ns`; it takes `measured`."""
+
+    result: SamplerResult
+    ns: Estimate
+    measured: float
 
 
 def verdict(result: SamplerResult) -> str:
@@ -45,6 +68,61 @@ def overview_row(scene: Scene) -> dict[str, OverviewCell]:
     mark = "best" if len(level) == 1 else "joint best"
     return {result.sampler: OverviewCell(result, verdicts[result.sampler], mark if result in level else "")
             for result in scene.samplers}
+
+
+def _better_first(pair: Pair, name: str) -> Estimate:
+    """MSE of the other of a pair over that of `name`."""
+    ratio = pair.ratio
+    if pair.a == name or not ratio.value:
+        return ratio
+    return Estimate(1 / ratio.value, 1 / ratio.hi if ratio.hi else None, 1 / ratio.lo if ratio.lo else None)
+
+
+def winner(scene: Scene) -> Winner | None:
+    """None where the scene has no pairs: a single sampler, or none with replicates."""
+    pairs = [pair for pair in (scene.evidence.pairs if scene.evidence else ()) if pair.ratio.value]
+    if not pairs:
+        return None
+    results = {result.sampler: result for result in scene.samplers}
+    named = [name for name in results if any(name in (pair.a, pair.b) for pair in pairs)]
+    beaten = {pair.b if pair.better == pair.a else pair.a for pair in pairs if pair.better}
+    leaders = tuple(results[name] for name in named if name not in beaten)
+    if len(leaders) != 1:
+        return Winner(leaders, None, None, max(pair.spp for pair in pairs))
+    name = leaders[0].sampler
+    nearest = min((pair for pair in pairs if name in (pair.a, pair.b)), key=lambda pair: _better_first(pair, name).value)
+    return Winner(leaders, results[nearest.b if nearest.a == name else nearest.a], _better_first(nearest, name), nearest.spp)
+
+
+def pair_matrix(scene: Scene) -> list[tuple[SamplerResult, list[tuple[str, Estimate | None]]]]:
+    """Samplers by samplers, those that beat most first: "+" where the row has less MSE than the column, "\u2212" where more, "=" where
+    they are not told apart, "" without a comparison; each with the MSE of the column over that of the row."""
+    pairs = {frozenset((pair.a, pair.b)): pair for pair in scene.evidence.pairs}
+    beats = {result.sampler: sum(pair.better == result.sampler for pair in pairs.values()) for result in scene.samplers}
+    order = sorted((result for result in scene.samplers if any(result.sampler in pair for pair in pairs)), key=lambda result: -beats[result.sampler])
+
+    def cell(row: SamplerResult, column: SamplerResult) -> tuple[str, Estimate | None]:
+        pair = pairs.get(frozenset((row.sampler, column.sampler))) if row is not column else None
+        if pair is None:
+            return "", None
+        return "=" if pair.better is None else "+" if pair.better == row.sampler else "\u2212", _better_first(pair, row.sampler)
+
+    return [(row, [cell(row, column) for column in order]) for row in order]
+
+
+def overtaking(scene: Scene) -> tuple[SamplerResult, list[Overtaking]] | None:
+    """The sampler with the highest efficiency of the scene, and where each other one would be as efficient; None without pairs."""
+    pairs = [pair for pair in (scene.evidence.pairs if scene.evidence else ()) if pair.a_overtakes and pair.b_overtakes and pair.ratio.value and pair.ns[0]]
+    if not pairs:
+        return None
+    results = {result.sampler: result for result in scene.samplers}
+    beats = {name: 0 for name in results}
+    for pair in pairs:
+        beats[pair.a if pair.b_overtakes.value < pair.ns[1] else pair.b] += 1
+    first = max(beats, key=beats.get)
+    rest = [Overtaking(results[pair.b], pair.b_overtakes, pair.ns[1]) if pair.a == first else Overtaking(results[pair.a], pair.a_overtakes, pair.ns[0])
+            for pair in pairs if first in (pair.a, pair.b)]
+    return results[first], rest
 
 
 def tally(rows: list[dict[str, OverviewCell]]) -> dict[str, int]:
@@ -83,12 +161,12 @@ def time_to(result: SamplerResult, target: float) -> TimeTo | None:
 
 
 def common_target(scene: Scene) -> float | None:
-    """The hardest target that every sampler reached, or failing that the most did; None without targets."""
+    """The hardest target that every sampler reached, or failing that the most did; the easiest where none was reached; None without targets."""
     def reached(target: float) -> int:
         entries = (time_to(result, target) for result in scene.samplers)
         return sum(entry is not None and entry.how != "not reached" for entry in entries)
 
-    return max(targets(scene), key=lambda target: (reached(target), -target), default=None)
+    return max(targets(scene), key=lambda target: (reached(target), -target if reached(target) else target), default=None)
 
 
 def fastest(scene: Scene, target: float) -> dict[str, str]:

@@ -13,8 +13,8 @@ _MANTISSAS = ((1.0,), (1.0, 3.0), (1.0, 2.0, 5.0), (1.0, 1.5, 2.0, 3.0, 5.0, 7.0
 _MOST_LABELS = 8
 
 
-def set_log_ticks(axis: Axis, lo: float, hi: float) -> None:
-    """Labels an axis over [lo, hi], 0 < lo < hi, at three to eight round numbers."""
+def set_log_ticks(axis: Axis, lo: float, hi: float, most: int = _MOST_LABELS) -> None:
+    """Labels an axis over [lo, hi], 0 < lo < hi, at three to `most` round numbers."""
     ticks: list[float] = []
     for mantissas in _MANTISSAS:
         ticks = [m * 10.0**e for e in range(math.floor(math.log10(lo)), math.ceil(math.log10(hi)) + 1)
@@ -23,7 +23,7 @@ def set_log_ticks(axis: Axis, lo: float, hi: float) -> None:
             break
     decades = [10.0**e * m for e in range(math.floor(math.log10(lo)), math.ceil(math.log10(hi)) + 1)
                for m in range(1, 10) if lo <= m * 10.0**e <= hi]
-    _set(axis, thinned(ticks), decades if len(decades) <= 60 else [])
+    _set(axis, thinned(ticks, most), decades if len(decades) <= 60 else [])
 
 
 def set_value_ticks(axis: Axis, values: Sequence[float]) -> None:
@@ -31,9 +31,9 @@ def set_value_ticks(axis: Axis, values: Sequence[float]) -> None:
     _set(axis, thinned(sorted(set(values))), [])
 
 
-def thinned(ticks: list[float]) -> list[float]:
-    """At most eight of the ticks, evenly, the last one kept."""
-    step = max(1, math.ceil(len(ticks) / _MOST_LABELS))
+def thinned(ticks: list[float], most: int = _MOST_LABELS) -> list[float]:
+    """At most so many of the ticks, evenly, the last one kept."""
+    step = max(1, math.ceil(len(ticks) / most))
     return ticks[::-1][::step][::-1]
 
 

@@ -50,6 +50,7 @@ Json header_json(const Experiment& e, const std::vector<std::unique_ptr<SamplerF
             {"crop_spp", e.crop_spp},
             {"layouts", e.layouts},
             {"any_count", e.own_counts},
+            {"progressive", e.progressive},
             {"scenes", Json::array()}};
 }
 
@@ -70,7 +71,11 @@ Reference obtain_reference(const Experiment& e, const BenchScene& s, const Regis
     return reference;
 }
 
-Json scene_json(const BenchScene& s, const Judge& judge) {
+Json predictions_of(const BenchScene& s, const Registry& registry) {
+    return predictions_json(s.what.predictions, [&](const std::string& spec) { return make_sampler(registry, spec)->name(); });
+}
+
+Json scene_json(const BenchScene& s, const Judge& judge, const Registry& registry) {
     const Reference& reference = judge.reference();
     const Errors halves = judge.between_halves();
     const auto file = find_reference(s.key);
@@ -89,6 +94,7 @@ Json scene_json(const BenchScene& s, const Judge& judge) {
               {"halves_z", require_agreement(reference)},
               {"between_halves", {{"mae", halves.mae}, {"smape", halves.smape}, {"flip", halves.flip}}},
               {"file", file ? file->filename().string() : ""}}},
+            {"predictions", predictions_of(s, registry)},
             {"emitter_pixels", judge.emitter_pixels()},
             {"picture", nullptr},
             {"reference_crop", nullptr},
@@ -106,9 +112,10 @@ Run open_run(const BenchCommand& command, const Registry& registry) {
             if (run.samplers[i]->name() == run.samplers.back()->name()) throw UsageError(fmt::format("sampler {} is asked for twice", run.samplers[i]->name()));
     }
     run.scenes = open_scenes(run.experiment, command.scenes);
-    for (const BenchScene& s : run.scenes)
-        for (const auto& sampler : run.samplers)  // a limit is told now, not after an hour
-            static_cast<void>(sampler->bind(sampling_plan(s.scene, s.plan, run.experiment.spp.back(), 0)));
+    for (const BenchScene& s : run.scenes) {  // a limit or a sampler that there is not is told now, not after an hour
+        static_cast<void>(predictions_of(s, registry));
+        for (const auto& sampler : run.samplers) static_cast<void>(sampler->bind(sampling_plan(s.scene, s.plan, run.experiment.spp.back(), 0)));
+    }
     for (const BenchScene& s : run.scenes) run.orders.push_back(slot_orders(s.plan.layout, static_cast<std::size_t>(run.experiment.layouts)));
     return run;
 }
@@ -126,7 +133,7 @@ std::vector<Json> render_trials(const Run& run, const std::vector<PlannedTrial>&
         const BenchScene& s = run.scenes[t.scene];
         const SamplerFactory& sampler = *run.samplers[t.sampler];
         const Row expected = identity_of(s, sampler, judges[t.scene], t.trial, e.seed, threads);
-        const bool image_kept = t.trial.layout == 0 && t.trial.spp == e.crop_spp;
+        const bool image_kept = t.trial.layout == 0 && t.trial.prefix_of == 0 && t.trial.spp == e.crop_spp;
         const Json* earlier = store.find(key_of(expected));
         if (earlier != nullptr && (!image_kept || load_replicate(out, expected))) {
             rows.push_back(*earlier);
@@ -154,7 +161,9 @@ void write_crops(Json& entry, const BenchScene& s, const Reference& reference, c
     entry["reference_crop"] = "pictures/" + s.what.name + "-reference.png";
     write_png(out / entry["reference_crop"].get<std::string>(), reference.mean, s.what.crop.width, s.what.crop.height, exposure);
     for (const Json& json : rows) {
-        if (json.at("scene") != s.what.name || json.at("replicate") != 0 || json.at("layout") != 0 || json.at("spp") != crop_spp) continue;
+        if (json.at("scene") != s.what.name || json.at("replicate") != 0 || json.at("layout") != 0 || json.value("prefix_of", 0) != 0 ||
+            json.at("spp") != crop_spp)
+            continue;
         const Row row = json.get<Row>();
         const auto image = load_replicate(out, row);
         if (!image) continue;
@@ -220,7 +229,7 @@ int run_bench(const BenchCommand& command, const Registry& registry, const std::
     try {
         rows = render_trials(run, trials, judges, store, out, command.threads);
         for (std::size_t i = 0; i < run.scenes.size(); ++i) {
-            Json entry = scene_json(run.scenes[i], judges[i]);
+            Json entry = scene_json(run.scenes[i], judges[i], registry);
             if (shard.part == 1) entry["picture"] = render_picture(run.experiment, run.scenes[i], registry, out, command.threads);
             save_reference_images(out, run.scenes[i].what.name, references[i]);
             write_crops(entry, run.scenes[i], references[i], rows, run.experiment.crop_spp, out);

@@ -25,8 +25,8 @@ struct Part {
 
 /// What the headers of all parts have in common. `why` names the first key that differs.
 bool same_run(const Json& a, const Json& b, std::string& why) {
-    for (const char* key : {"samplers", "relmse_targets", "crop_spp", "layouts", "any_count", "trials"})
-        if (a.at(key) != b.at(key)) return why = key, false;
+    for (const char* key : {"samplers", "relmse_targets", "crop_spp", "layouts", "any_count", "progressive", "trials"})
+        if (a.value(key, Json()) != b.value(key, Json())) return why = key, false;
     for (const char* key : {"name", "title", "version"})
         if (a.at("experiment").at(key) != b.at("experiment").at(key)) return why = key, false;
     if (a.at("shard")[1] != b.at("shard")[1]) return why = "number of shards", false;
@@ -82,8 +82,11 @@ int run_merge(const MergeCommand& command) {
             machines.insert(row.machine);
             rows.push_back(row);
         }
-    if (rows.size() != header.at("trials").get<std::size_t>()) throw Error(fmt::format("the parts have {} rows, the run {}", rows.size(), header.at("trials").get<std::size_t>()));
-    const auto place = [&](const Row& r) { return std::tuple(scene_order.at(r.scene), r.replicate, r.spp, sampler_order.at(r.sampler), r.layout); };
+    if (rows.size() != header.at("trials").get<std::size_t>())
+        throw Error(fmt::format("the parts have {} rows, the run {}", rows.size(), header.at("trials").get<std::size_t>()));
+    const auto place = [&](const Row& r) {
+        return std::tuple(scene_order.at(r.scene), r.prefix_of, r.replicate, r.spp, sampler_order.at(r.sampler), r.layout);
+    };
     std::sort(rows.begin(), rows.end(), [&](const Row& a, const Row& b) { return place(a) < place(b); });
 
     for (const Part& part : parts) {

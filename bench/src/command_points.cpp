@@ -1,4 +1,5 @@
 #include "commands.h"
+#include "npy.h"
 #include "scene_setup.h"
 
 #include <koksma/film/atomic_file.h>
@@ -6,7 +7,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <cstdio>
 #include <fstream>
 #include <functional>
@@ -41,16 +41,6 @@ void draw(const PointsCommand& command, const Registry& registry, const std::fun
     }
 }
 
-/// The header of version 1.0: padded to a multiple of 64 bytes.
-/// Source: NumPy, "NEP 1: A simple file format for NumPy arrays"
-std::string npy_header(std::uint64_t n, std::uint32_t dims) {
-    std::string text = fmt::format("{{'descr': '<f4', 'fortran_order': False, 'shape': ({}, {}), }}", n, dims);
-    text.append(64 - (10 + text.size() + 1) % 64, ' ');
-    text += '\n';
-    const auto size = static_cast<unsigned>(text.size());
-    return std::string("\x93NUMPY\x01\x00", 8) + static_cast<char>(size & 255u) + static_cast<char>(size >> 8) + text;
-}
-
 std::string line(std::span<const float> point, char separator) {
     std::string text;
     for (const float u : point) text += fmt::format("{}{:.9g}", text.empty() ? "" : std::string(1, separator), u);
@@ -69,10 +59,9 @@ void write(const std::filesystem::path& file, const std::function<void(std::ofst
 }  // namespace
 
 int run_points(const PointsCommand& command, const Registry& registry) {
-    static_assert(std::endian::native == std::endian::little, "values are written as they lie in memory");
     if (!command.npy.empty())
         write(command.npy, [&](std::ofstream& out) {
-            const std::string header = npy_header(command.n, command.dims);
+            const std::string header = npy_header({command.n, command.dims});
             out.write(header.data(), static_cast<std::streamsize>(header.size()));
             draw(command, registry, [&](std::span<const float> p) { out.write(reinterpret_cast<const char*>(p.data()), static_cast<std::streamsize>(p.size_bytes())); });
         });

@@ -20,6 +20,7 @@ void write_summary(const std::filesystem::path& directory) {
     read_results(directory / "results.jsonl", header, rows);
     nlohmann::ordered_json summary = summarize(header, rows);
     add_image_errors(directory, header, rows, summary);
+    add_crops(directory, header, rows, summary);
     write_atomically(directory / "summary.json", [&](const std::filesystem::path& file) {
         std::ofstream out(file);
         out << summary.dump(1) << '\n';
@@ -29,21 +30,25 @@ void write_summary(const std::filesystem::path& directory) {
     print_tables(summary);
 }
 
-bool make_report(const std::filesystem::path& directory, std::string& why_not) {
+bool make_report(const std::filesystem::path& directory, std::string& why_not, const std::vector<std::string>& more) {
     const std::string python_path = (data_directory() / "bench").string();
-    const int code = run_python({"-m", "report", directory.string()}, python_path);
+    std::vector<std::string> words{"-m", "report", directory.string()};
+    words.insert(words.end(), more.begin(), more.end());
+    const int code = run_python(words, python_path);
     if (code == 0) return true;
     why_not = code == 127 ? fmt::format("{} cannot be started; install python3, python3-numpy, python3-matplotlib and python3-jinja2", python_program())
                           : fmt::format("'{} -m report' ended with code {} (its message is above); PYTHONPATH was {}", python_program(), code, python_path);
     return false;
 }
 
-int run_report(const std::filesystem::path& directory) {
-    write_summary(directory);
+int run_report(const ReportCommand& command) {
+    write_summary(command.directory);
+    std::vector<std::string> more;
+    if (!command.figures.empty()) more.insert(more.end(), {"--figures", command.figures.string()});
+    if (command.anonymous) more.emplace_back("--anonymous");
     std::string why_not;
-    if (!make_report(directory, why_not)) throw Error("no report.html: " + why_not);
-    fmt::print("\nreport: {}\n", (directory / "report.html").string());
-    return 0;
+    if (!make_report(command.directory, why_not, more)) throw Error("no report.html: " + why_not);
+    return 0;  // the package has printed what it wrote
 }
 
 }  // namespace koksma

@@ -65,6 +65,11 @@ struct MergeCommand {
     std::filesystem::path out;
     bool no_report = false;
 };
+struct ReportCommand {
+    std::filesystem::path directory;             ///< that bench wrote
+    std::filesystem::path figures;               ///< JSON: what a paper's figures show
+    bool anonymous = false;                      ///< a copy without machine, paths and commit
+};
 struct ReferenceCommand {
     std::string experiment = "default";
     std::filesystem::path out;
@@ -124,6 +129,6 @@ int run_points(const PointsCommand& command, const Registry& registry);
 int run_rates(const RatesCommand& command, const Registry& registry);
 int run_card(const CardCommand& command, const Registry& registry);
 int run_limits(const LimitsCommand& command, const Registry& registry);
-int run_report(const std::filesystem::path& directory);
+int run_report(const ReportCommand& command);
 
 }  // namespace koksma

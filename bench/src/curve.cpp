@@ -7,10 +7,10 @@ namespace koksma {
 
 using Json = nlohmann::ordered_json;
 
-Curve curve_of(const std::vector<Row>& rows, const std::string& scene, const std::string& sampler, int layout) {
+Curve curve_of(const std::vector<Row>& rows, const std::string& scene, const std::string& sampler, int layout, bool prefixes) {
     Curve curve;
     for (const Row& r : rows) {
-        if (r.scene != scene || r.sampler != sampler || r.layout != layout) continue;
+        if (r.scene != scene || r.sampler != sampler || r.layout != layout || (r.prefix_of > 0) != prefixes) continue;
         Point& p = curve[r.spp];
         p.spp = r.spp;
         p.all.push_back(r.all);

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -23,8 +24,10 @@ struct Point {
 };
 using Curve = std::map<std::uint64_t, Point>;  // by spp
 
-/// @param layout  0: as the plan has it
-[[nodiscard]] Curve curve_of(const std::vector<Row>& rows, const std::string& scene, const std::string& sampler, int layout = 0);
+/// @param layout    0: as the plan has it
+/// @param prefixes  of progressive renders: the k-th value of every point is of one and the same render
+[[nodiscard]] Curve curve_of(const std::vector<Row>& rows, const std::string& scene, const std::string& sampler, int layout = 0,
+                             bool prefixes = false);
 
 /// One error of all replicates that have it.
 [[nodiscard]] std::vector<double> values_of(const std::vector<Errors>& errors, double Errors::*which);
@@ -54,9 +57,24 @@ struct Contender {
 /// 1 / (MSE x CPU seconds), of the means; the seconds' own uncertainty is not in the interval.
 [[nodiscard]] nlohmann::ordered_json efficiency_json(const Point& point, bool randomized);
 /// MSE of the baseline over that of the sampler after equally many CPU seconds: the most that both were measured for. Between points by
-/// straight lines in log-log, never beyond them: null where they have no time in common.
-[[nodiscard]] nlohmann::ordered_json equal_time_json(const Curve& curve, const Curve& baseline);
+/// straight lines in log-log, never beyond them: null where they have no time in common. The interval is that of the errors; seconds are taken as known.
+[[nodiscard]] nlohmann::ordered_json equal_time_json(const Curve& curve, bool randomized, const Curve& baseline);
+/// Prefixes of progressive renders: points, and a slope whose interval leaves out one whole render at a time. null without such renders.
+[[nodiscard]] nlohmann::ordered_json progressive_json(const Curve& prefixes);
 /// The nanoseconds a path of B below which B is more efficient than A at this spp, MSE as measured: ns of A times MSE of A over MSE of B.
 [[nodiscard]] nlohmann::ordered_json overtake_json(const Contender& a, const Contender& b, std::uint64_t spp);
+
+/// Verdicts, each with the figures it rests on: "held" where every interval lies within what was said, "refuted" where one lies outside it,
+/// "undecided" where one reaches over a bound, "not tested" where something was not rendered.
+/// @param predictions  of predictions_json()
+/// @param contenders   of the scene
+/// @param slopes       by sampler: "value", "lo", "hi", or null
+/// @param label        of a sampler, for people
+[[nodiscard]] nlohmann::ordered_json verdicts_json(const nlohmann::ordered_json& predictions, const std::vector<Contender>& contenders,
+                                                   const std::map<std::string, nlohmann::ordered_json>& slopes,
+                                                   const std::function<std::string(const std::string&)>& label);
+
+/// Of several: refuted if one is, else undecided if one is, else held if one is; else not tested.
+[[nodiscard]] std::string worst_verdict(const nlohmann::ordered_json& verdicts);
 
 }  // namespace koksma

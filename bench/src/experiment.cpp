@@ -1,6 +1,7 @@
 #include "experiment.h"
 
 #include "json_error.h"
+#include "json_keys.h"
 
 #include <koksma/sampling/error.h>
 
@@ -11,81 +12,12 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
-#include <set>
-#include <type_traits>
 
 namespace koksma {
 
 namespace {
 
 using Json = nlohmann::json;
-
-// JSON's own conversions turn 1.5 into 1, true into 1 and -4 into 2^64 - 4; these refuse. @return  what was expected, or nullptr
-const char* convert(const Json& json, std::string& value) {
-    if (!json.is_string()) return "a string";
-    value = json.get<std::string>();
-    return nullptr;
-}
-const char* convert(const Json& json, double& value) {
-    if (!json.is_number()) return "a number";
-    value = json.get<double>();
-    return nullptr;
-}
-const char* convert(const Json& json, std::uint64_t& value) {
-    if (!json.is_number_unsigned()) return "an integer, 0 or more";
-    value = json.get<std::uint64_t>();
-    return nullptr;
-}
-const char* convert(const Json& json, bool& value) {
-    if (!json.is_boolean()) return "true or false";
-    value = json.get<bool>();
-    return nullptr;
-}
-const char* convert(const Json& json, int& value) {
-    if (!json.is_number_integer() || json.get<double>() < -0x1p31 || json.get<double>() >= 0x1p31) return "an integer of 32 bits";
-    value = json.get<int>();
-    return nullptr;
-}
-template <class T>
-const char* convert(const Json& json, std::vector<T>& values) {
-    if (!json.is_array()) return "a list";
-    values.clear();
-    for (const Json& item : json)
-        if (convert(item, values.emplace_back()) != nullptr) return std::is_same_v<T, std::string> ? "a list of strings" : (std::is_same_v<T, double> ? "a list of numbers" : "a list of integers in range");
-    return nullptr;
-}
-
-/// Reads the keys of one object and complains about those that nobody asked for.
-class Keys {
-public:
-    Keys(const Json& json, std::string where) : json_(json), where_(std::move(where)) {
-        if (!json.is_object()) throw Error(where_ + ": expected an object");
-    }
-    template <class T>
-    void read(const char* key, T& value, bool required) {
-        known_.insert(key);
-        const auto it = json_.find(key);
-        if (it == json_.end()) {
-            if (required) throw Error(fmt::format("{}: the key \"{}\" is missing", where_, key));
-            return;
-        }
-        if (const char* expected = convert(*it, value)) throw Error(fmt::format("{}: \"{}\": expected {}, found {}", where_, key, expected, it->dump()));
-    }
-    [[nodiscard]] const Json* object(const char* key) {
-        known_.insert(key);
-        const auto it = json_.find(key);
-        return it == json_.end() ? nullptr : &*it;
-    }
-    void done() const {
-        for (const auto& item : json_.items())
-            if (!known_.contains(item.key())) throw Error(fmt::format("{}: unknown key \"{}\"; known keys: {}", where_, item.key(), fmt::join(known_, ", ")));
-    }
-
-private:
-    const Json& json_;
-    std::string where_;
-    std::set<std::string> known_;
-};
 
 std::filesystem::path locate(const std::string& name_or_file) {
     if (name_or_file.ends_with(".json")) {
@@ -119,6 +51,11 @@ ExperimentScene scene_of(const Json& json, const std::string& where, const std::
     Keys keys(json, where);
     keys.read("file", file, true);
     keys.read("crop", crop, true);
+    if (const Json* predictions = keys.object("predictions")) {
+        if (!predictions->is_array()) throw Error(where + ": \"predictions\": expected a list");
+        for (std::size_t i = 0; i < predictions->size(); ++i)
+            scene.predictions.push_back(prediction_of((*predictions)[i], fmt::format("{}: predictions[{}]", where, i)));
+    }
     keys.done();
     if (crop.size() != 4 || crop[0] < 0 || crop[1] < 0 || crop[2] < 1 || crop[3] < 1) throw Error(where + ": \"crop\" must be [x, y, width, height]");
     scene.file = std::filesystem::path(file).is_absolute() ? std::filesystem::path(file) : (folder / file).lexically_normal();
@@ -142,7 +79,11 @@ void check(const Experiment& e) {
     if (e.layouts < 1 || e.layouts > kMostLayouts)
         throw Error(fmt::format("{}: \"layouts\" is {}; expected 1 (the layout as it stands) to {}", where, e.layouts, kMostLayouts));
     if (e.layouts > 1 && (e.layouts < 3 || *std::min_element(e.replicates.begin(), e.replicates.end()) < 2))
-        throw Error(where + ": a spread over layouts needs 3 layouts or more (the first is the one that is compared with the others) and 2 replicates of each");
+        throw Error(where +
+                    ": a spread over layouts needs 3 layouts or more (the first is the one that is compared with the others) and 2 "
+                    "replicates of each");
+    if (e.progressive < 0 || e.progressive == 1)
+        throw Error(where + ": \"progressive\": expected 0 (no such curve) or 2 replicates or more");
     if (e.reference.samplers.size() != 2 || e.reference.samplers[0] == e.reference.samplers[1])
         throw Error(where + ": \"reference\" needs two different samplers, one for each half");
     if (e.reference.replicates < 2 || e.reference.spp == 0) throw Error(where + ": a reference needs two replicates or more, and samples");
@@ -170,6 +111,7 @@ Experiment load_experiment(const std::string& name_or_file) {
     keys.read("spp", e.spp, true);
     keys.read("replicates", e.replicates, true);
     keys.read("own_counts", e.own_counts, false);
+    keys.read("progressive", e.progressive, false);
     keys.read("layouts", e.layouts, false);
     keys.read("seed", e.seed, false);
     keys.read("relmse_targets", e.targets, false);
@@ -220,6 +162,7 @@ Experiment quick(Experiment e) {
         e.replicates.pop_back();
     }
     for (int& r : e.replicates) r = std::min(r, std::max(4, r / 2));
+    e.progressive = std::min(e.progressive, 4);
     e.picture_spp = std::min<std::uint64_t>(e.picture_spp, 16);
     return e;
 }

@@ -1,6 +1,8 @@
 #pragma once
 // What an experiment renders: a small JSON file, checked.
 
+#include "prediction.h"
+
 #include <koksma/film/film.h>
 #include <koksma/sampling/sampler.h>
 
@@ -13,8 +15,9 @@ namespace koksma {
 
 struct ExperimentScene {
     std::filesystem::path file;
-    std::string name;        ///< the file's stem
-    PixelRect crop;          ///< where errors are measured
+    std::string name;  ///< the file's stem
+    PixelRect crop;    ///< where errors are measured
+    std::vector<Prediction> predictions;
 };
 
 /// Renders of each sampler on each scene: replicates[i] of them at spp[i].
@@ -25,8 +28,9 @@ struct Experiment {
     std::vector<std::string> samplers;
     std::vector<std::uint64_t> spp;
     std::vector<int> replicates;
-    bool own_counts = false;                         ///< each sampler also at the good counts of its own base, within the range of spp
-    int layouts = 1;                                 ///< the layout as it stands and layouts - 1 permuted ones
+    bool own_counts = false;  ///< each sampler also at the good counts of its own base, within the range of spp
+    int progressive = 0;      ///< renders to the largest spp whose prefixes at every spp make a curve of their own
+    int layouts = 1;          ///< the layout as it stands and layouts - 1 permuted ones
     std::uint64_t seed = 0;
     std::vector<double> targets{1e-2, 1e-3, 1e-4};   ///< of relMSE, for the time to reach them
     std::uint64_t crop_spp = 16;                     ///< whose images the report shows

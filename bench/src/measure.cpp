@@ -25,8 +25,11 @@ std::string fill_of(const Source& source) {
 }  // namespace
 
 std::uint64_t seed_of(const BenchScene& s, const SamplerFactory& sampler, const Trial& trial, std::uint64_t base_seed) {
-    const std::uint64_t base = trial.layout == 0 ? base_seed : hash_combine(base_seed, static_cast<std::uint64_t>(trial.layout));
-    return test_seed(base, s.key.scene_hash, sampler.name(), trial.spp, static_cast<std::uint64_t>(trial.replicate));
+    std::uint64_t base = trial.layout == 0 ? base_seed : hash_combine(base_seed, static_cast<std::uint64_t>(trial.layout));
+    constexpr std::uint64_t kPrefixes = 0x7072656669786573;  // a render that is read at its prefixes is none of the native ones
+    if (trial.prefix_of > 0) base = hash_combine(base_seed, kPrefixes);
+    return test_seed(base, s.key.scene_hash, sampler.name(), trial.prefix_of > 0 ? trial.prefix_of : trial.spp,
+                     static_cast<std::uint64_t>(trial.replicate));
 }
 
 Row identity_of(const BenchScene& s, const SamplerFactory& sampler, const Judge& judge, const Trial& trial, std::uint64_t base_seed, int threads) {
@@ -41,6 +44,7 @@ Row identity_of(const BenchScene& s, const SamplerFactory& sampler, const Judge&
     row.seed = seed_of(s, sampler, trial, base_seed);
     row.replicate = trial.replicate;
     row.layout = trial.layout;
+    row.prefix_of = trial.prefix_of;
     row.film[0] = s.scene.film.width;
     row.film[1] = s.scene.film.height;
     const int crop[4] = {s.what.crop.x, s.what.crop.y, s.what.crop.width, s.what.crop.height};
@@ -62,13 +66,14 @@ Row identity_of(const BenchScene& s, const SamplerFactory& sampler, const Judge&
 Row measure(const BenchScene& s, const SamplerFactory& sampler, const Judge& judge, const Trial& trial, std::uint64_t base_seed, int threads,
             std::vector<float>& image) {
     Row row = identity_of(s, sampler, judge, trial, base_seed, threads);
-    std::unique_ptr<SampleSource> source = sampler.bind(sampling_plan(s.scene, s.plan, row.spp, row.seed));
+    std::unique_ptr<SampleSource> source =
+        sampler.bind(sampling_plan(s.scene, s.plan, row.prefix_of > 0 ? row.prefix_of : row.spp, row.seed));
     if (trial.layout != 0) source = std::make_unique<PermutedSource>(std::move(source), s.plan.layout, *trial.order);
     RenderOptions options;
     options.threads = threads;
     const RenderResult result = render(s.scene, s.plan, *source, {s.what.crop, 0, row.spp}, options);
     image = result.film.image();
-    const Judge::Verdict verdict = judge.judge(image, trial.replicate < kFlipReplicates && trial.layout == 0);
+    const Judge::Verdict verdict = judge.judge(image, with_flip(trial));
     const Vec3d mean = result.film.mean();
     row.kernel = result.stats.kernel;
     row.all = verdict.all;

@@ -14,10 +14,12 @@ struct Trial {
     int replicate = 0;
     int layout = 0;
     const SlotOrder* order = nullptr;  ///< of the layout; not read for layout 0
+    std::uint64_t prefix_of = 0;       ///< not 0: the first spp samples of a render of so many
 };
 
 /// FLIP, the dearest of the metrics, is taken of the first replicates only: it has no slope, and its spread is small.
 inline constexpr int kFlipReplicates = 4;
+[[nodiscard]] inline bool with_flip(const Trial& t) noexcept { return t.replicate < kFlipReplicates && t.layout == 0 && t.prefix_of == 0; }
 
 /// The seed of a trial's render: of each its own.
 [[nodiscard]] std::uint64_t seed_of(const BenchScene& scene, const SamplerFactory& sampler, const Trial& trial, std::uint64_t base_seed);

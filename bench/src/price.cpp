@@ -54,7 +54,7 @@ void print_price(const Run& run, const std::vector<PlannedTrial>& trials, const 
         for (const PlannedTrial& t : trials) {
             if (t.scene != i) continue;
             ++renders;
-            judged += t.trial.replicate < kFlipReplicates && t.trial.layout == 0;
+            judged += with_flip(t.trial);
             paths += static_cast<double>(t.trial.spp) * area;
             cpu += static_cast<double>(t.trial.spp) * area * per_path[t.sampler];
         }

@@ -179,10 +179,12 @@ int run_program(int argc, char** argv) {
     c->add_option("--json", limits.json, "Also write the figures as JSON");
     c->final_callback([&] { action = [&] { return run_limits(limits, registry); }; });
 
-    std::filesystem::path report_dir;
-    c = app.add_subcommand("report", "Make summary.json and report.html again from a folder's results.jsonl");
-    c->add_option("dir", report_dir, "Folder that koksma bench wrote")->required();
-    c->final_callback([&] { action = [&] { return run_report(report_dir); }; });
+    ReportCommand report;
+    c = app.add_subcommand("report", "Make summary.json and report.html again from a folder's results.jsonl; and figures, tables and crops for a paper");
+    c->add_option("dir", report.directory, "Folder that koksma bench wrote")->required();
+    c->add_option("--figures", report.figures, "JSON file that chooses samplers, labels, colours and column width of the figures in DIR/figures");
+    c->add_flag("--anonymous", report.anonymous, "Write all to DIR/anonymous, without machine, paths and commit");
+    c->final_callback([&] { action = [&] { return run_report(report); }; });
 
     ReplayCommand replay;
     c = app.add_subcommand("replay", "Print one camera sample's path vertex by vertex");

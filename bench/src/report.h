@@ -20,7 +20,8 @@ void write_results(const std::filesystem::path& directory, const nlohmann::order
 int finish_results(const std::filesystem::path& directory, bool no_report);
 
 /// Makes report.html by the Python package under bench/report.
-/// @return  false, with the reason, where Python or a package of it is missing: everything but the report works
-[[nodiscard]] bool make_report(const std::filesystem::path& directory, std::string& why_not);
+/// @param more  further arguments of `python -m report`
+/// @return      false, with the reason, where Python or a package of it is missing: everything but the report works
+[[nodiscard]] bool make_report(const std::filesystem::path& directory, std::string& why_not, const std::vector<std::string>& more = {});
 
 }  // namespace koksma

@@ -28,6 +28,7 @@ void to_json(nlohmann::ordered_json& j, const Row& r) {
          {"spp", r.spp},
          {"replicate", r.replicate},
          {"layout", r.layout},
+         {"prefix_of", r.prefix_of},
          {"seed", r.seed},
          {"film", {r.film[0], r.film[1]}},
          {"crop", {r.crop[0], r.crop[1], r.crop[2], r.crop[3]}},
@@ -78,6 +79,7 @@ void from_json(const nlohmann::ordered_json& j, Row& r) {
     j.at("spp").get_to(r.spp);
     j.at("replicate").get_to(r.replicate);
     r.layout = j.value("layout", 0);  // rows of older programs have none
+    r.prefix_of = j.value("prefix_of", std::uint64_t{0});
     j.at("seed").get_to(r.seed);
     for (std::size_t i = 0; i < 2; ++i) r.film[i] = j.at("film").at(i);
     for (std::size_t i = 0; i < 4; ++i) r.crop[i] = j.at("crop").at(i);

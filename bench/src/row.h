@@ -20,7 +20,8 @@ struct Row {
     bool randomized = true;
     std::uint64_t spp = 0, seed = 0;
     int replicate = 0;
-    int layout = 0;             ///< 0: the plan's; else which permuted one
+    int layout = 0;               ///< 0: the plan's; else which permuted one
+    std::uint64_t prefix_of = 0;  ///< not 0: the first spp samples of a progressive render of so many
     int film[2] = {}, crop[4] = {};
     int max_depth = 0, rr_depth = 0;
     std::vector<std::string> effects;

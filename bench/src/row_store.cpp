@@ -53,9 +53,11 @@ std::size_t read_rows(const std::filesystem::path& file, bool cut, std::map<std:
 }  // namespace
 
 std::string key_of(const Row& r) {
-    return fmt::format("{} {} crop {} film {} depth {} {} {} v{} dims {} spp {} r{} l{} seed {:x} est {} ref {} {} threads {} on {} {}", r.scene, r.scene_hash,
-                       fmt::join(r.crop, ","), fmt::join(r.film, "x"), r.max_depth, r.rr_depth, r.sampler, r.sampler_version, r.dimensions, r.spp, r.replicate, r.layout,
-                       r.seed, r.estimator_version, r.reference, r.reference_content, r.threads, r.machine, r.isa);
+    const std::string prefix = r.prefix_of > 0 ? fmt::format(" prefix of {}", r.prefix_of) : "";
+    return fmt::format("{} {} crop {} film {} depth {} {} {} v{} dims {} spp {} r{} l{} seed {:x} est {} ref {} {} threads {} on {} {}{}",
+                       r.scene, r.scene_hash, fmt::join(r.crop, ","), fmt::join(r.film, "x"), r.max_depth, r.rr_depth, r.sampler,
+                       r.sampler_version, r.dimensions, r.spp, r.replicate, r.layout, r.seed, r.estimator_version, r.reference,
+                       r.reference_content, r.threads, r.machine, r.isa, prefix);
 }
 
 std::size_t count_rows(const std::filesystem::path& folder) {

@@ -148,11 +148,19 @@ Json layouts_json(const std::vector<Row>& rows, const std::string& scene, const 
     return out;
 }
 
-/// Whether the curve looks like the laws whose intervals were seen to cover less than they say.
 bool tails_of(const Curve& curve) {
     std::vector<std::vector<double>> points;
     for (const auto& [spp, p] : curve) points.push_back(p.mse);
     return heavy_tailed(points);
+}
+
+/// What intervals were seen to cover where the curve looks heavy-tailed; null where it does not.
+Json coverage_json(const Curve& curve) {
+    if (!tails_of(curve)) return nullptr;
+    std::size_t fewest = curve.begin()->second.mse.size();
+    for (const auto& [spp, p] : curve) fewest = std::min(fewest, p.mse.size());
+    const MeasuredCoverage c = heavy_tailed_coverage(static_cast<int>(fewest));
+    return {{"replicates", c.replicates}, {"rmse", c.rmse}, {"slope", c.slope}, {"gain", c.gain}};
 }
 
 std::string label_of(const Json& header, const std::string& sampler) {
@@ -171,10 +179,11 @@ const Row* first_row(const std::vector<Row>& rows, const std::string& scene, con
 }  // namespace
 
 Json summarize(const Json& header, const std::vector<Row>& rows) {
-    Json summary = {{"schema", 1}, {"experiment", header.at("experiment")}, {"scenes", Json::array()}};
+    Json summary = {{"schema", 1}, {"experiment", header.at("experiment")}, {"scenes", Json::array()}, {"other_commits", Json::array()}};
     summary["experiment"]["confidence"] = kConfidence;
     std::uint64_t invalid = 0;
     double seconds = 0.0;
+    std::map<std::string, std::size_t> commits;
     std::vector<std::vector<Contender>> contenders;
     std::string baseline;
     for (const Json& s : header.at("samplers"))
@@ -182,6 +191,7 @@ Json summarize(const Json& header, const std::vector<Row>& rows) {
     for (const Row& r : rows) {
         invalid += r.invalid_samples;
         seconds += r.wall_seconds;
+        ++commits[r.commit];
     }
     for (const Json& scene : header.at("scenes")) {
         const std::string name = scene.at("name");
@@ -194,6 +204,7 @@ Json summarize(const Json& header, const std::vector<Row>& rows) {
         contenders.emplace_back();
         const Curve base_curve = curve_of(rows, name, baseline);
         Json samplers = Json::array();
+        std::map<std::string, Json> slopes;
         for (const Json& s : header.at("samplers")) {
             const std::string spec = s.at("sampler");
             const Row* row = first_row(rows, name, spec);
@@ -209,7 +220,7 @@ Json summarize(const Json& header, const std::vector<Row>& rows) {
                           {"heavy_tailed", row->randomized && tails_of(curve)},
                           {"slope", slope_json(curve, row->randomized)},
                           {"time_to", times_json(curve, row->randomized, header.at("relmse_targets"))},
-                          {"equal_time_vs_random", spec == baseline || base_curve.empty() ? Json() : equal_time_json(curve, base_curve)},
+                          {"equal_time_vs_random", spec == baseline || base_curve.empty() ? Json() : equal_time_json(curve, row->randomized, base_curve)},
                           {"gain_vs_random", spec == baseline ? Json() : gain_json(curve, row->randomized, base_curve)}};
             const Json& crops = scene.at("crops");
             entry["crop"] = crops.contains(spec) ? crops.at(spec) : Json();
@@ -219,15 +230,22 @@ Json summarize(const Json& header, const std::vector<Row>& rows) {
             entry["any_count"] = header.value("any_count", false) && row->randomized && spec != baseline && !base_curve.empty()
                                      ? comparisons_json(curve, base_curve, s.value("own_counts", Json::array()))
                                      : Json();
-            entry["error_map"] = nullptr;
+            entry["progressive"] = progressive_json(curve_of(rows, name, spec, 0, true));
+            entry["interval_coverage"] = row->randomized ? coverage_json(curve) : Json();
+            slopes[spec] = entry["slope"];
             samplers.push_back(entry);
         }
         out["samplers"] = samplers;
         out["pairs"] = pairs_json(contenders.back());
+        out["predictions"] = verdicts_json(scene.value("predictions", Json::array()), contenders.back(), slopes, [&](const std::string& spec) { return label_of(header, spec); });
+        out["predictions_verdict"] = worst_verdict(out["predictions"]);
         out.erase("crops");
         summary["scenes"].push_back(out);
     }
     summary["across_scenes"] = across_scenes_json(contenders, baseline);
+    for (const auto& [commit, count] : commits)
+        if (commit != header.at("experiment").at("commit")) summary["other_commits"].push_back({{"commit", commit}, {"rows", count}});
+    summary["rows"] = rows.size();
     summary["invalid_samples"] = invalid;
     summary["seconds_total"] = seconds;
     return summary;

@@ -1,10 +1,10 @@
 #include "summary_images.h"
 
 #include "curve.h"
+#include "npy.h"
 #include "pictures.h"
 #include "replicate_images.h"
 
-#include <koksma/film/atomic_file.h>
 #include <koksma/film/exr.h>
 #include <koksma/measure/image_error.h>
 #include <koksma/measure/rmse_estimate.h>
@@ -12,9 +12,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <fstream>
 #include <map>
 
 namespace koksma {
@@ -23,26 +21,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::filesystem::path reference_image(const std::filesystem::path& folder, const std::string& scene, const char* what) {
-    return folder / "images" / fmt::format("{}-reference-{}.exr", scene, what);
-}
-
-/// A NumPy file of float32, shape (height, width).
 void write_map(const std::filesystem::path& file, const std::vector<double>& values, int width, int height) {
-    static_assert(std::endian::native == std::endian::little);
-    std::string header = fmt::format("{{'descr': '<f4', 'fortran_order': False, 'shape': ({}, {}), }}", height, width);
-    while ((10 + header.size() + 1) % 64 != 0) header += ' ';
-    header += '\n';
     const std::vector<float> floats(values.begin(), values.end());
-    write_atomically(file, [&](const std::filesystem::path& path) {
-        std::ofstream out(path, std::ios::binary);
-        out.write("\x93NUMPY\x01\x00", 8);
-        const auto size = static_cast<std::uint16_t>(header.size());
-        out.put(static_cast<char>(size & 255)).put(static_cast<char>(size >> 8)) << header;
-        out.write(reinterpret_cast<const char*>(floats.data()), static_cast<std::streamsize>(4 * floats.size()));
-        out.flush();
-        if (!out) throw Error("the disk is full or the folder is not writable");
-    });
+    write_npy(file, floats, {static_cast<std::uint64_t>(height), static_cast<std::uint64_t>(width)});
 }
 
 struct Replicates {
@@ -65,6 +46,10 @@ Json blurred_json(const Replicates& r, const std::vector<float>& reference, int 
 
 }  // namespace
 
+std::filesystem::path reference_image(const std::filesystem::path& folder, const std::string& scene, const char* what) {
+    return folder / "images" / fmt::format("{}-reference-{}.exr", scene, what);
+}
+
 void save_reference_images(const std::filesystem::path& folder, const std::string& scene, const Reference& reference) {
     ExrImage exr;
     exr.width = reference.key.rect.width;
@@ -85,7 +70,7 @@ void add_image_errors(const std::filesystem::path& folder, const Json& header, c
         const std::vector<float> mean = read_exr(reference_image(folder, name, "mean")).rgb(), variance = read_exr(reference_image(folder, name, "variance")).rgb();
         std::map<std::string, Replicates> found;
         for (const Row& row : rows)
-            if (row.scene == name && row.layout == 0 && row.spp == spp && row.randomized)
+            if (row.scene == name && row.layout == 0 && row.prefix_of == 0 && row.spp == spp && row.randomized)
                 if (auto image = load_replicate(folder, row)) found[row.sampler].images.push_back(std::move(*image));
         std::erase_if(found, [](const auto& item) { return item.second.images.size() < 2; });
         for (auto& [sampler, r] : found) r.pixels = pixel_statistics(r.images, mean, variance);

@@ -34,6 +34,7 @@ Json pairs_json(const std::vector<Contender>& contenders) {
             pairs.push_back(compare_errors(a.curve.at(spp).mse, b.curve.at(spp).mse, kConfidence));
             lines.push_back({{"a", a.sampler}, {"b", b.sampler}, {"spp", spp}});
             lines.back()["b_overtakes_below_ns_per_path"] = overtake_json(a, b, spp);
+            lines.back()["a_overtakes_below_ns_per_path"] = overtake_json(b, a, spp);
         }
     holm(pairs);
     Json out = Json::array();

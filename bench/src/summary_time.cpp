@@ -16,21 +16,26 @@ using Json = nlohmann::ordered_json;
 
 double seconds(const Point& p) { return mean_estimate(p.cpu).value; }
 
-/// MSE of a curve at so many seconds, on a straight line in log-log between its points. NaN outside them.
-double mse_at(const Curve& curve, double at) {
+/// The last point of a curve whose mean error is positive; nullptr: none.
+const Point* last_point(const Curve& curve) {
+    for (auto it = curve.rbegin(); it != curve.rend(); ++it)
+        if (moments(it->second.mse).mean > 0 && seconds(it->second) > 0) return &it->second;
+    return nullptr;
+}
+
+/// MSE of a curve at the end of another, by that end's MSE; on a straight line in log-log between the curve's points. NaN outside them.
+Gain gain_at_end(const Curve& curve, bool randomized, const Point& end, bool end_randomized) {
     const Point* below = nullptr;
     for (const auto& [spp, p] : curve) {
-        const double s = seconds(p);
-        const double mse = moments(p.mse).mean;
-        if (!(mse > 0 && s > 0)) continue;
-        if (below != nullptr && seconds(*below) <= at && at <= s) {
-            const double from = seconds(*below), part = s > from ? std::log(at / from) / std::log(s / from) : 1;
-            const double mse_below = moments(below->mse).mean;
-            return mse_below * std::pow(mse / mse_below, part);
+        if (!(moments(p.mse).mean > 0 && seconds(p) > 0)) continue;
+        const double at = seconds(end), to = seconds(p), from = below != nullptr ? seconds(*below) : NAN;
+        if (from <= at && at <= to) {
+            const double part = to > from ? std::log(at / from) / std::log(to / from) : 1;
+            return interpolated_gain(replicates(end.mse, end_randomized), replicates(below->mse, randomized), replicates(p.mse, randomized), part, kConfidence);
         }
         below = &p;
     }
-    return NAN;
+    return {NAN, NAN, NAN, 0, false};
 }
 
 }  // namespace
@@ -41,16 +46,15 @@ Json efficiency_json(const Point& p, bool randomized) {
     return interval_json(1 / (mse.value * s), 1 / (mse.hi * s), 1 / (mse.lo * s));
 }
 
-Json equal_time_json(const Curve& curve, const Curve& baseline) {
-    // At the longest time that both were measured within.
-    double latest[2] = {0, 0};
-    const Curve* curves[] = {&curve, &baseline};
-    for (int i = 0; i < 2; ++i)
-        for (const auto& [spp, p] : *curves[i]) latest[i] = std::max(latest[i], seconds(p));
-    const double at = std::min(latest[0], latest[1]);
-    const double mine = mse_at(curve, at), other = mse_at(baseline, at);
-    if (!std::isfinite(mine) || !std::isfinite(other)) return nullptr;
-    return {{"seconds", at}, {"mse_ratio", other / mine}, {"how", "interpolated"}};
+Json equal_time_json(const Curve& curve, bool randomized, const Curve& baseline) {
+    // At the longest time that both were measured within: the end of one of them.
+    const Point *mine = last_point(curve), *other = last_point(baseline);
+    if (mine == nullptr || other == nullptr) return nullptr;
+    const bool mine_ends_first = seconds(*mine) <= seconds(*other);
+    Gain g = mine_ends_first ? gain_at_end(baseline, true, *mine, randomized) : gain_at_end(curve, randomized, *other, true);
+    if (!mine_ends_first) g = {1 / g.value, 1 / g.hi, 1 / g.lo, g.dof, false};
+    if (!std::isfinite(g.value)) return nullptr;
+    return {{"seconds", seconds(mine_ends_first ? *mine : *other)}, {"mse_ratio", number(g.value)}, {"lo", number(g.lo)}, {"hi", number(g.hi)}, {"how", "interpolated"}};
 }
 
 Json overtake_json(const Contender& first, const Contender& second, std::uint64_t spp) {

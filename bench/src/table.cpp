@@ -83,6 +83,41 @@ void print_across(const Json& summary) {
                        s.at("highest").get<double>(), s.at("scenes").get<int>(), s.at("left_out") == 0 ? "" : fmt::format(", {} without a gain left out", s.at("left_out").get<int>()));
 }
 
+/// Each claim of a scene's predictions with its verdict and the figures it rests on.
+void print_predictions(const Json& scene) {
+    if (scene.at("predictions").empty()) return;
+    fmt::print("  {:<10}{}\n", scene.at("name").get<std::string>(), scene.at("predictions_verdict").get<std::string>());
+    for (const Json& p : scene.at("predictions")) {
+        std::string figures;
+        for (const Json& f : p.at("found")) {
+            if (p.at("found").size() > 4 && f.at("verdict") == "held") continue;  // of many, those that did not hold
+            figures += (figures.empty() ? "" : ", ") + (p.at("found").size() > 1 ? f.at("what").get<std::string>() + " " : std::string()) +
+                       with_interval(f.at("value"), f.at("lo"), f.at("hi"), "{:.3g}");
+        }
+        fmt::print("    {:<11}{}: {}\n", p.at("verdict").get<std::string>(), p.at("says").get<std::string>(), figures.empty() ? "all" : figures);
+    }
+}
+
+/// Equal CPU seconds, and slopes of progressive renders: a line a sampler.
+void print_equal_time(const Json& scene) {
+    for (const Json& s : scene.at("samplers")) {
+        const Json& e = s.at("equal_time_vs_random");
+        if (e.is_null()) continue;
+        fmt::print("  {:<10}{:<28}{:>9.3g} s   {}\n", scene.at("name").get<std::string>(), s.at("sampler").get<std::string>(), e.at("seconds").get<double>(),
+                   with_interval(e.at("mse_ratio"), e.at("lo"), e.at("hi"), "{:.3g}"));
+    }
+}
+
+void print_progressive(const Json& scene) {
+    for (const Json& s : scene.at("samplers")) {
+        const Json& p = s.at("progressive");
+        if (p.is_null() || p.at("slope").is_null()) continue;
+        const Json& slope = p.at("slope");
+        fmt::print("  {:<10}{:<28}{:<26}{} renders to {} spp\n", scene.at("name").get<std::string>(), s.at("sampler").get<std::string>(),
+                   with_interval(slope.at("value"), slope.at("lo"), slope.at("hi"), "{:.3f}"), p.at("renders").get<int>(), p.at("planned_spp").get<std::uint64_t>());
+    }
+}
+
 /// How much of a result is luck of dimensions: a line a sampler and count.
 void print_layouts(const Json& scene) {
     for (const Json& s : scene.at("samplers")) {
@@ -151,10 +186,22 @@ void print_tables(const Json& summary) {
     fmt::print("  {:<10}{:<28}{:<26}{:<38}{}\n", "scene", "sampler", "slope [95 %]", "gain [95 %]", targets);
     for (const Json& scene : summary.at("scenes")) print_rates(scene);
     if (any_sampler(summary, [](const Json& s) { return s.at("heavy_tailed").get<bool>(); }))
-        fmt::print("  tails: single replicates stand far above the others; intervals of such laws were seen to cover 84 to 94 %, not 95 %\n");
+        fmt::print("  tails: single replicates stand far above the others; of such laws 95 % intervals were seen to cover less (summary.json: interval_coverage)\n");
+    if (any_sampler(summary, [](const Json& s) { return !s.at("equal_time_vs_random").is_null(); })) {
+        fmt::print("\nMSE gain over random after equal CPU seconds [95 % of the errors; the seconds taken as known], interpolated, never extrapolated\n");
+        for (const Json& scene : summary.at("scenes")) print_equal_time(scene);
+    }
+    if (any_sampler(summary, [](const Json& s) { return !s.at("progressive").is_null(); })) {
+        fmt::print("\nProgressive renders, read at every spp: slopes [95 % by leaving out whole renders]\n");
+        for (const Json& scene : summary.at("scenes")) print_progressive(scene);
+    }
     fmt::print("\nPairs at their largest common spp (MSE; p of all pairs of a scene corrected by Holm's method, 5 %)\n");
     for (const Json& scene : summary.at("scenes")) print_pairs(scene);
     print_across(summary);
+    std::size_t predicted = 0;
+    for (const Json& scene : summary.at("scenes")) predicted += scene.at("predictions").size();
+    if (predicted > 0) fmt::print("\nPredictions of the experiment, made before it ran\n");
+    for (const Json& scene : summary.at("scenes")) print_predictions(scene);
     for (const Json& scene : summary.at("scenes")) print_counts(scene);
     if (any_sampler(summary, [](const Json& s) { return !s.at("layouts").is_null(); })) {
         fmt::print("\nLuck of dimensions: RMSE over permuted layouts (geometric mean, lowest, highest), their standard deviation without the replicates'\n"

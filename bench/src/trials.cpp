@@ -41,19 +41,28 @@ std::vector<PlannedTrial> trials_of(const Run& run, Shard shard) {
     const int most = *std::max_element(run.experiment.replicates.begin(), run.experiment.replicates.end());
     std::vector<PlannedTrial> trials;
     std::vector<double> load(static_cast<std::size_t>(shard.of), 0.0);
-    for (std::size_t scene = 0; scene < run.scenes.size(); ++scene)
+    const auto mine = [&](std::uint64_t spp) {
+        const auto least = std::min_element(load.begin(), load.end());  // the first of the least loaded: the same on all machines
+        *least += static_cast<double>(spp);
+        return least - load.begin() == shard.part - 1;
+    };
+    for (std::size_t scene = 0; scene < run.scenes.size(); ++scene) {
         for (int replicate = 0; replicate < most; ++replicate)
             for (const std::uint64_t spp : all_spp)
                 for (std::size_t k = 0; k < run.samplers.size(); ++k) {
                     if (replicate >= replicates_at(counts[k], spp)) continue;
                     if (replicate > 0 && !run.samplers[k]->randomized()) continue;  // it would be the same render again
-                    for (std::size_t layout = 0; layout < run.orders[scene].size(); ++layout) {
-                        const auto least = std::min_element(load.begin(), load.end());  // the first of the least loaded: the same on all machines
-                        *least += static_cast<double>(spp);
-                        if (least - load.begin() == shard.part - 1)
-                            trials.push_back({scene, k, {spp, replicate, static_cast<int>(layout), &run.orders[scene][layout]}});
-                    }
+                    for (std::size_t layout = 0; layout < run.orders[scene].size(); ++layout)
+                        if (mine(spp))
+                            trials.push_back({scene, k, {spp, replicate, static_cast<int>(layout), &run.orders[scene][layout], 0}});
                 }
+        // Each prefix is rendered from its first sample, so that a row needs no other: with counts times 4 it costs a third more.
+        for (int replicate = 0; replicate < run.experiment.progressive; ++replicate)
+            for (const std::uint64_t spp : run.experiment.spp)
+                for (std::size_t k = 0; k < run.samplers.size(); ++k)
+                    if (run.samplers[k]->randomized() && mine(spp))
+                        trials.push_back({scene, k, {spp, replicate, 0, &run.orders[scene][0], run.experiment.spp.back()}});
+    }
     return trials;
 }
 

@@ -1,6 +1,7 @@
 #include "laws.h"
 
 #include <koksma/measure/slope.h>
+#include <koksma/measure/statistics.h>
 #include <koksma/sampling/error.h>
 #include <koksma_catch.h>
 
@@ -47,7 +48,7 @@ TEST_CASE("a slope of two points is the quotient of differences and its interval
     const double relative = 0.08 / 3 / 4;
     CHECK(fit.standard_error == Approx(0.5 * std::sqrt(2 * relative) / std::log(4.0)));
     CHECK(fit.dof == Approx(8));
-    CHECK(fit.hi - fit.value == Approx(2.306004135 * fit.standard_error).epsilon(1e-6));
+    CHECK(fit.hi - fit.value == Approx(student_t_quantile(1 - 0.41 * 0.05, 8) * fit.standard_error).epsilon(1e-6));
     CHECK(std::isnan(fit.straight_p));
 }
 
@@ -112,4 +113,35 @@ TEST_CASE("a bent curve fails the test of straightness and a straight one passes
     for (int i = 2; i < 9; ++i) bent.push_back({std::ldexp(1.0, i), replicates(chi2_law(0.1), 8, std::ldexp(1.0, -i) + 0.01, g)});
     CHECK(fit_slope(bent).straight_p < 1e-6);
     CHECK(fit_slope(bent).value > -0.45);
+}
+
+TEST_CASE("a slope of prefixes is that of their means, and knows that points depend on each other", "[unit][measure]") {
+    // Every render is 0.7, 1.0 or 1.3 times the same curve at all its prefixes: the slope is known exactly, though no point is.
+    const std::vector<double> spp = {4, 16, 64};
+    std::vector<std::vector<double>> renders;
+    for (const double factor : {0.7, 1.0, 1.3}) renders.push_back({factor, factor / 16, factor / 256});
+    const SlopeFit whole = fit_prefix_slope(spp, renders);
+    CHECK(whole.value == Approx(-1));
+    CHECK(whole.hi - whole.lo < 1e-9);
+    std::vector<RatePoint> as_if_independent;
+    for (std::size_t i = 0; i < spp.size(); ++i) as_if_independent.push_back({spp[i], {renders[0][i], renders[1][i], renders[2][i]}});
+    CHECK(fit_slope(as_if_independent).value == Approx(-1));
+    CHECK(fit_slope(as_if_independent).hi - fit_slope(as_if_independent).lo > 0.1);
+
+    renders[2][2] = 2;  // one render that is off at one prefix: half-width by hand
+    const SlopeFit fit = fit_prefix_slope(spp, renders);
+    std::vector<double> left;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t a = (k + 1) % 3, b = (k + 2) % 3;
+        left.push_back(0.5 * std::log((renders[a][2] + renders[b][2]) / (renders[a][0] + renders[b][0])) / std::log(16.0));  // of equal weights: first and last
+    }
+    const double mean = (left[0] + left[1] + left[2]) / 3;
+    double square = 0;
+    for (const double v : left) square += (v - mean) * (v - mean);
+    CHECK(fit.hi - fit.value == Approx(student_t_factor(0.95, 2) * std::sqrt(2.0 / 3 * square)));
+
+    CHECK(std::isnan(fit_prefix_slope(spp, {renders[0]}).lo));
+    CHECK_THROWS_AS(fit_prefix_slope(spp, {{1, 2}}), Error);
+    renders[0][0] = -100;
+    CHECK(std::isnan(fit_prefix_slope(spp, renders).value));
 }

@@ -12,7 +12,7 @@ from harness import ProgramTest
 from test_experiment import TINY
 
 ROW = {"kind": str, "row_format": int, "reference_content": str, "scene": str, "scene_hash": str, "sampler": str, "sampler_version": int, "randomized": bool, "spp": int,
-       "replicate": int, "layout": int, "seed": int, "film": list, "crop": list, "max_depth": int, "rr_depth": int, "effects": list,
+       "replicate": int, "layout": int, "prefix_of": int, "seed": int, "film": list, "crop": list, "max_depth": int, "rr_depth": int, "effects": list,
        "dimensions": int, "kernel": str, "mse": float, "mse_raw": float, "rmse": float, "relmse": float, "relmse_raw": float,
        "mae": float, "smape": float, "flip": float, "masked": dict,
        "mean_rgb": list, "wall_seconds": float, "cpu_seconds": float, "sampler_seconds": float, "sampler_share": float,

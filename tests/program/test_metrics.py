@@ -1,5 +1,6 @@
 """Metrics against numpy, which shares no code with the program. Skipped without numpy."""
 
+import math
 import unittest
 
 from exr import Exr
@@ -126,6 +127,13 @@ class Times(BenchTest):
         if equal:
             self.assertEqual(equal["seconds"], min(a["cpu_seconds"], b["cpu_seconds"]))
             self.assertGreater(equal["mse_ratio"], 0)
+            self.assertTrue(equal["lo"] <= equal["mse_ratio"] <= equal["hi"])
+            # By hand: the one that ends first is measured at that time, the other lies between two of its points.
+            ends, other = (b, random) if b["cpu_seconds"] <= a["cpu_seconds"] else (a, sobol)
+            below, above = next((p, q) for p, q in zip(other["points"], other["points"][1:]) if p["cpu_seconds"] <= equal["seconds"] <= q["cpu_seconds"])
+            part = math.log(equal["seconds"] / below["cpu_seconds"]) / math.log(above["cpu_seconds"] / below["cpu_seconds"])
+            mse = below["mse"] * (above["mse"] / below["mse"]) ** part
+            self.assertAlmostEqual(equal["mse_ratio"] / (mse / ends["mse"] if ends is b else ends["mse"] / mse), 1, delta=1e-9)
         self.assertEqual({p["fill"] for s in scene["samplers"] for p in s["points"]} - {"scalar", "vector", "unstated"}, set())
 
 

@@ -48,7 +48,7 @@ def make_summary(scenes=tuple(SCENES), samplers=SAMPLERS) -> dict:
                        "commit": "abc1234", "machine": "AMD EPYC 9R14", "cores": 2, "isa": "avx512",
                        "compiler": "gcc 12.2.0", "threads": 2, "version": "0.1.0", "confidence": 0.95, "note": ""},
         "scenes": [_scene(name, samplers, rng) for name in scenes],
-        "invalid_samples": 0, "seconds_total": 1234.5,
+        "rows": 80, "other_commits": [], "invalid_samples": 0, "seconds_total": 1234.5,
     }
 
 
@@ -57,6 +57,38 @@ def write(directory: Path, summary: dict) -> Path:
     directory.mkdir(parents=True, exist_ok=True)
     (directory / "summary.json").write_text(json.dumps(summary), encoding="utf-8")
     return directory
+
+
+def add_images(directory: Path, summary: dict, side: int = 32) -> None:
+    """Gives the first scene crops as data and maps: a grey ramp with noise that falls from sampler to sampler, most of it in one corner."""
+    import numpy as np
+    rng = np.random.default_rng(1)
+    (directory / "crops").mkdir(parents=True, exist_ok=True)
+    scene = summary["scenes"][0]
+    reference = np.repeat(np.linspace(0.2, 0.8, side * side, dtype=np.float32).reshape(side, side, 1), 3, axis=2)
+    corner = np.ones((side, side))
+    corner[side // 2:, :side // 2] = 4
+    png_bytes = png(side, side, lambda x, y: (x, y, 128))
+
+    def keep(name: str, values) -> str:
+        np.save(directory / "crops" / name, values.astype(np.float32))
+        return f"crops/{name}"
+
+    def picture(name: str) -> str:
+        (directory / "crops" / name).write_bytes(png_bytes)
+        return f"crops/{name}"
+
+    scene.update(reference_crop=picture("reference.png"), reference_data=keep("reference.npy", reference), reference_exr=picture("reference.exr"))
+    for i, sampler in enumerate(scene["samplers"]):
+        error = rng.normal(size=(side, side)) * corner * 0.05 / 2**i
+        sampler.update(crop=picture(f"{i}.png"), crop_spp=16, crop_exr=picture(f"{i}.exr"), crop_data=keep(f"{i}.npy", reference + error[..., None]), heavy_tailed=False)
+        sampler["image_error"] = {"spp": 16, "replicates": 4, "spectrum": [1.0] * (side // 2 + 1), "blurred": [{"sigma": 1.0, "rmse": {"value": 0.1, "lo": 0.09, "hi": 0.11}}],
+                                  "median_pixel_gain": None, "bias_z_median": 0.7,
+                                  "maps": {"mse": keep(f"{i}-mse.npy", (corner * 0.05 / 2**i) ** 2), "bias_z": keep(f"{i}-z.npy", rng.normal(size=(side, side)))}}
+        for point in sampler["points"]:
+            estimate = {"value": point["rmse"], "lo": point["rmse_lo"], "hi": point["rmse_hi"]}
+            point.update(metrics={part: dict.fromkeys(("rmse", "relmse", "mae", "smape", "flip"), estimate) for part in ("all", "masked")}
+                         | {"equivalent_random_spp": None}, efficiency=estimate, ns_per_path=100.0, fill="vector")
 
 
 def _scene(name: str, samplers, rng: random.Random) -> dict:
@@ -72,7 +104,8 @@ def _scene(name: str, samplers, rng: random.Random) -> dict:
         "kernel": "reference/diffuse",
         "reference": {"samplers": ["sobol:randomize=owen", "random"], "spp_total": 32768, "replicates": 16,
                       "se_rmse": error / 150 / math.sqrt(2), "halves_z": 0.4, "file": "references/" + name + ".exr"},
-        "picture": None, "reference_crop": None, "samplers": results,
+        "picture": None, "reference_crop": None, "reference_data": None, "reference_exr": None, "samplers": results,
+        "predictions": [], "predictions_verdict": "not tested",
     }
 
 
@@ -89,7 +122,8 @@ def _sampler(spec, error: float, slope: float, seconds: float, rng: random.Rando
     return {"sampler": name, "label": label, "randomized": True, "points": points,
             "slope": {"value": slope, "lo": slope - 0.03, "hi": slope + 0.03, "spp_from": 4, "spp_to": 256},
             "time_to": [_time_to(target, points) for target in (1e-1, 1e-2, 1e-3)],
-            "gain_vs_random": None, "crop": None, "crop_spp": None, "error_map": None, "layouts": None, "any_count": None}
+            "gain_vs_random": None, "crop": None, "crop_spp": None, "crop_data": None, "crop_exr": None, "equal_time_vs_random": None, "progressive": None,
+            "interval_coverage": None, "layouts": None, "any_count": None}
 
 
 def _time_to(target: float, points: list[dict]) -> dict:

@@ -19,6 +19,21 @@ double sample_skewness(std::span<const double> x, const Moments& m) noexcept {
     return n / ((n - 1) * (n - 2)) * cube / (m.variance * std::sqrt(m.variance));
 }
 
+/// (largest / mean of the others - 1 - log2(n) / 2) / 3, within [0, 1]: what is above 0 is rare for replicates whose relative sd is 0.5 or
+/// less.
+double outlier_of(std::span<const double> x) noexcept {
+    if (x.size() < 3) return 0;
+    const double largest = *std::max_element(x.begin(), x.end()), n = static_cast<double>(x.size());
+    double sum = 0;
+    for (const double v : x) sum += v;
+    const double others = (sum - largest) / (n - 1);
+    return others > 0 ? std::clamp((largest / others - 1 - std::log2(n) / 2) / 3, 0.0, 1.0) : 0;
+}
+
+/// The probability of missing upwards.
+/// @param  up  share of the variance that comes from terms with positive coefficients
+double tail_above(double up, double alpha) noexcept { return alpha * (1 - 1.445 * up + 0.53 * up * up); }
+
 /// How many standard errors the true mean may be above the measured one, where a symmetric law says t.
 /// Hall's g(T) = T + q T^2 / 3 + q^2 T^3 / 27 + q / 6 is near normal; this is -g^-1(-t).
 double upward(double t, double q) noexcept {
@@ -30,23 +45,25 @@ double upward(double t, double q) noexcept {
 
 LogMean log_mean(std::span<const double> replicates, const Moments& m) noexcept {
     return {std::log(m.mean), m.log_mean_variance(), static_cast<double>(m.n - 1),
-            sample_skewness(replicates, m) / std::sqrt(static_cast<double>(m.n))};
+            sample_skewness(replicates, m) / std::sqrt(static_cast<double>(m.n)), outlier_of(replicates)};
 }
 
 LogCombination combine(std::span<const double> c, std::span<const LogMean> terms, double confidence) {
     LogCombination r;
     std::vector<double> variances, dofs;
-    double variance = 0;
+    double variance = 0, variance_up = 0, outlier = 0;
     for (std::size_t i = 0; i < terms.size(); ++i) {
         r.value += c[i] * terms[i].value;
         variances.push_back(c[i] * c[i] * terms[i].variance);
         dofs.push_back(terms[i].dof);
         variance += variances.back();
+        if (c[i] > 0) variance_up += variances.back();
+        if (terms.size() > 1) outlier = std::max(outlier, terms[i].outlier);
     }
     r.standard_error = std::sqrt(variance);
     const bool known = std::isfinite(variance);
     r.dof = known ? welch_satterthwaite(variances, dofs) : 0;
-    const double t = student_t_factor(confidence, known ? r.dof : 1);  // asked for in any case: it checks the confidence
+    (void)student_t_factor(confidence, 1);  // it checks the confidence
     if (!known) {
         r.lo = r.hi = r.standard_error = std::numeric_limits<double>::quiet_NaN();
         return r;
@@ -56,8 +73,10 @@ LogCombination combine(std::span<const double> c, std::span<const LogMean> terms
     for (std::size_t i = 0; i < terms.size(); ++i)
         cumulant += (c[i] < 0 ? -1 : 1) * std::max(0.0, terms[i].skew) * variances[i] * std::sqrt(variances[i]);
     const double skew = variance > 0 ? cumulant / (variance * std::sqrt(variance)) : 0;
-    r.lo = r.value - upward(t, -skew) * r.standard_error;
-    r.hi = r.value + upward(t, skew) * r.standard_error;
+    const double up = variance > 0 ? variance_up / variance : 0.5, widened = 1 + 0.25 * outlier;
+    const auto t = [&](double share) { return widened * student_t_quantile(1 - tail_above(share, 1 - confidence), r.dof); };
+    r.lo = r.value - upward(t(1 - up), -skew) * r.standard_error;
+    r.hi = r.value + upward(t(up), skew) * r.standard_error;
     return r;
 }
 

@@ -101,4 +101,35 @@ SlopeFit fit_slope(std::span<const RatePoint> points, double confidence) {
     return fit;
 }
 
+SlopeFit fit_prefix_slope(std::span<const double> spp, const std::vector<std::vector<double>>& errors, double confidence) {
+    for (const std::vector<double>& e : errors)
+        if (e.size() != spp.size())
+            throw Error("slope of prefixes: found a render of " + std::to_string(e.size()) + " prefixes, expected " +
+                        std::to_string(spp.size()));
+    const auto without = [&](std::size_t left_out) {
+        std::vector<RatePoint> points;
+        for (std::size_t i = 0; i < spp.size(); ++i) {
+            points.push_back({spp[i], {}});
+            for (std::size_t k = 0; k < errors.size(); ++k)
+                if (k != left_out) points.back().errors.push_back(errors[k][i]);
+        }
+        return fit_slope(points, confidence);
+    };
+    SlopeFit fit = without(errors.size());
+    fit.straight_p = kNaN;
+    if (fit.skipped > 0) fit.value = kNaN;
+    const double n = static_cast<double>(errors.size());
+    double mean = 0, square = 0;
+    std::vector<double> left;
+    for (std::size_t k = 0; k < errors.size() && errors.size() > 1; ++k) left.push_back(without(k).value);
+    for (const double v : left) mean += v / n;
+    for (const double v : left) square += (v - mean) * (v - mean);
+    fit.dof = n - 1;
+    fit.standard_error = errors.size() > 1 && fit.skipped == 0 ? std::sqrt((n - 1) / n * square) : kNaN;
+    const double half = errors.size() > 1 ? student_t_factor(confidence, n - 1) * fit.standard_error : kNaN;
+    fit.lo = fit.value - half;
+    fit.hi = fit.value + half;
+    return fit;
+}
+
 }  // namespace koksma
