@@ -60,6 +60,15 @@ struct BenchCommand {
     std::vector<std::string> samplers;           ///< instead of the experiment's
     std::vector<std::string> scenes;             ///< only these
 };
+struct BudgetCommand {
+    std::filesystem::path scene;                 ///< a file, or a name from the default experiment
+    std::string sampler = "sobol:randomize=owen";
+    std::uint64_t spp = 64, seed = 0;
+    int replicates = 16, threads = 0;
+    std::size_t bounces = 4;                     ///< later ones are one group
+    std::filesystem::path out;
+    bool no_report = false;
+};
 struct MergeCommand {
     std::vector<std::filesystem::path> parts;
     std::filesystem::path out;
@@ -117,6 +126,7 @@ int run_plan(const PlanCommand& command, const Registry& registry);
 int run_compare(const CompareCommand& command);
 int run_samplers(bool json, const Registry& registry);
 int run_bench(const BenchCommand& command, const Registry& registry, const std::string& command_line);
+int run_budget(const BudgetCommand& command, const Registry& registry, const std::string& command_line);
 int run_merge(const MergeCommand& command);
 int run_reference(const ReferenceCommand& command, const Registry& registry);
 int run_check(const CheckCommand& command, const Registry& registry);

@@ -88,7 +88,24 @@ int run_program(int argc, char** argv) {
     c->add_flag("--fresh", bench.fresh, "Render all again, also what an earlier run in the folder has rendered");
     c->add_option("--shard", bench.shard, "Only part k of n, as in 2/3, into FOLDER/shard-k-of-n; koksma merge puts them together");
     const std::string command_line = joined(argc, argv);
-    c->final_callback([&] { action = [&] { return run_bench(bench, registry, command_line); }; });
+    CLI::App* const bench_app = c;
+    c->final_callback([&, bench_app] {
+        if (bench_app->get_subcommands().empty()) action = [&] { return run_bench(bench, registry, command_line); };
+    });
+    c->footer("Experiments of their own: koksma bench budget --help");
+
+    BudgetCommand budget;
+    c = bench_app->add_subcommand("budget", "Where a scene's error comes from: each group of random decisions with independent numbers alone, or with the sequence alone");
+    c->add_option("scene", budget.scene, "A scene of the default experiment by name, or a file (.xml)")->required();
+    c->add_option("-s,--sampler", budget.sampler, "The sequence (default sobol:randomize=owen)");
+    c->add_option("-n,--spp", budget.spp, "Samples per pixel (default 64)")->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 24));
+    c->add_option("-r,--replicates", budget.replicates, "Renders of each kind (default 16)")->check(CLI::Range(2, 10000));
+    c->add_option("--bounces", budget.bounces, "Bounces that are told apart; later ones are one group (default 4)")->check(CLI::Range(0, 64));
+    c->add_option("--seed", budget.seed, "Seed (default 0)")->check(not_a_count);
+    c->add_option("-o,--out", budget.out, "Folder for budget.json and budget.html (default: koksma-bench/budget-SCENE)");
+    c->add_option("-t,--threads", budget.threads, "Threads; 0: all")->check(CLI::Range(0, 4096));
+    c->add_flag("--no-report", budget.no_report, "Do not make budget.html");
+    c->final_callback([&] { action = [&] { return run_budget(budget, registry, command_line); }; });
 
     MergeCommand merge;
     c = app.add_subcommand("merge", "Put the parts of a bench --shard run together");
