@@ -69,6 +69,29 @@ struct BudgetCommand {
     std::filesystem::path out;
     bool no_report = false;
 };
+struct EstimateCommand {
+    SceneArguments scene;
+    std::filesystem::path output, stats;
+    std::string light = "mis", directions = "bsdf", end = "throughput", number = "own";
+    std::uint32_t branching = 1;
+    int threads = 0;
+    bool quiet = false;
+};
+struct AdaptiveCommand {
+    SceneArguments scene;                        ///< spp is the average
+    std::filesystem::path output;
+    std::string mode = "two-stage";
+    std::uint64_t most = 1024;
+    int threads = 0;
+    bool quiet = false;
+};
+struct LectureCommand {
+    std::vector<std::string> topics;             ///< empty: all
+    std::filesystem::path out = "koksma-bench/lecture";
+    std::uint64_t seed = 0;
+    int threads = 0;
+    bool quick = false, no_report = false;
+};
 struct MergeCommand {
     std::vector<std::filesystem::path> parts;
     std::filesystem::path out;
@@ -127,6 +150,9 @@ int run_compare(const CompareCommand& command);
 int run_samplers(bool json, const Registry& registry);
 int run_bench(const BenchCommand& command, const Registry& registry, const std::string& command_line);
 int run_budget(const BudgetCommand& command, const Registry& registry, const std::string& command_line);
+int run_estimate(const EstimateCommand& command, const Registry& registry);
+int run_adaptive(const AdaptiveCommand& command, const Registry& registry);
+int run_lecture(const LectureCommand& command, const Registry& registry, const std::string& command_line);
 int run_merge(const MergeCommand& command);
 int run_reference(const ReferenceCommand& command, const Registry& registry);
 int run_check(const CheckCommand& command, const Registry& registry);
