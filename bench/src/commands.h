@@ -60,6 +60,38 @@ struct BenchCommand {
     std::vector<std::string> samplers;           ///< instead of the experiment's
     std::vector<std::string> scenes;             ///< only these
 };
+struct BudgetCommand {
+    std::filesystem::path scene;                 ///< a file, or a name from the default experiment
+    std::string sampler = "sobol:randomize=owen";
+    std::uint64_t spp = 64, seed = 0;
+    int replicates = 16, threads = 0;
+    std::size_t bounces = 4;                     ///< later ones are one group
+    std::filesystem::path out;
+    bool no_report = false;
+};
+struct EstimateCommand {
+    SceneArguments scene;
+    std::filesystem::path output, stats;
+    std::string light = "mis", directions = "bsdf", end = "throughput", number = "own";
+    std::uint32_t branching = 1;
+    int threads = 0;
+    bool quiet = false;
+};
+struct AdaptiveCommand {
+    SceneArguments scene;                        ///< spp is the average
+    std::filesystem::path output;
+    std::string mode = "two-stage";
+    std::uint64_t most = 1024;
+    int threads = 0;
+    bool quiet = false;
+};
+struct LectureCommand {
+    std::vector<std::string> topics;             ///< empty: all
+    std::filesystem::path out = "koksma-bench/lecture";
+    std::uint64_t seed = 0;
+    int threads = 0;
+    bool quick = false, no_report = false;
+};
 struct MergeCommand {
     std::vector<std::filesystem::path> parts;
     std::filesystem::path out;
@@ -122,6 +154,10 @@ int run_plan(const PlanCommand& command, const Registry& registry);
 int run_compare(const CompareCommand& command);
 int run_samplers(bool json, const Registry& registry);
 int run_bench(const BenchCommand& command, const Registry& registry, const std::string& command_line);
+int run_budget(const BudgetCommand& command, const Registry& registry, const std::string& command_line);
+int run_estimate(const EstimateCommand& command, const Registry& registry);
+int run_adaptive(const AdaptiveCommand& command, const Registry& registry);
+int run_lecture(const LectureCommand& command, const Registry& registry, const std::string& command_line);
 int run_merge(const MergeCommand& command);
 int run_reference(const ReferenceCommand& command, const Registry& registry);
 int run_check(const CheckCommand& command, const Registry& registry);

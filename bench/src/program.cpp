@@ -88,7 +88,62 @@ int run_program(int argc, char** argv) {
     c->add_flag("--fresh", bench.fresh, "Render all again, also what an earlier run in the folder has rendered");
     c->add_option("--shard", bench.shard, "Only part k of n, as in 2/3, into FOLDER/shard-k-of-n; koksma merge puts them together");
     const std::string command_line = joined(argc, argv);
-    c->final_callback([&] { action = [&] { return run_bench(bench, registry, command_line); }; });
+    CLI::App* const bench_app = c;
+    c->final_callback([&, bench_app] {
+        if (bench_app->get_subcommands().empty()) action = [&] { return run_bench(bench, registry, command_line); };
+    });
+    c->footer("Experiments of their own: koksma bench budget --help, koksma bench lecture --help");
+
+    BudgetCommand budget;
+    c = bench_app->add_subcommand("budget", "Where a scene's error comes from: each group of random decisions with independent numbers alone, or with the sequence alone");
+    c->add_option("scene", budget.scene, "A scene of the default experiment by name, or a file (.xml)")->required();
+    c->add_option("-s,--sampler", budget.sampler, "The sequence (default sobol:randomize=owen)");
+    c->add_option("-n,--spp", budget.spp, "Samples per pixel (default 64)")->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 24));
+    c->add_option("-r,--replicates", budget.replicates, "Renders of each kind (default 16)")->check(CLI::Range(2, 10000));
+    c->add_option("--bounces", budget.bounces, "Bounces that are told apart; later ones are one group (default 4)")->check(CLI::Range(0, 64));
+    c->add_option("--seed", budget.seed, "Seed (default 0)")->check(not_a_count);
+    c->add_option("-o,--out", budget.out, "Folder for budget.json and budget.html (default: koksma-bench/budget-SCENE)");
+    c->add_option("-t,--threads", budget.threads, "Threads; 0: all")->check(CLI::Range(0, 4096));
+    c->add_flag("--no-report", budget.no_report, "Do not make budget.html");
+    c->final_callback([&] { action = [&] { return run_budget(budget, registry, command_line); }; });
+
+    LectureCommand lecture;
+    c = bench_app->add_subcommand("lecture", "The course on path tracing as experiments: every claim measured, beside its closed form where there is one");
+    c->add_option("topics", lecture.topics, "Only these topics (docs/lecture.md lists them)");
+    c->add_option("-o,--out", lecture.out, "Folder for lecture.json and lecture.html (default: koksma-bench/lecture)");
+    c->add_option("--seed", lecture.seed, "Seed (default 0)")->check(not_a_count);
+    c->add_option("-t,--threads", lecture.threads, "Threads; 0: all")->check(CLI::Range(0, 4096));
+    c->add_flag("--quick", lecture.quick, "A quarter of the replicates");
+    c->add_flag("--no-report", lecture.no_report, "Do not make lecture.html");
+    c->final_callback([&] { action = [&] { return run_lecture(lecture, registry, command_line); }; });
+
+    EstimateCommand estimate;
+    c = app.add_subcommand("estimate",
+                           "Render with the lecture's recursive estimator: how light is found, how directions are drawn, how paths end and branch.\n"
+                           "The image has layers Le, Ldirect, Lindirect, and scattered0, scattered1 ... for light that was scattered so often; prints a ledger of\n"
+                           "what truncation, roulette and invalid samples cost");
+    add_scene_options(c, estimate.scene);
+    c->add_option("-o,--output", estimate.output, "Image to write (.exr)")->required();
+    c->add_option("--light", estimate.light, "How light is found: bsdf (by meeting it), light (by sampling it), mis (both; default)");
+    c->add_option("--directions", estimate.directions, "How directions are drawn: bsdf (default), uniform (on the hemisphere)");
+    c->add_option("--end", estimate.end,
+                  "How paths end: none, depth=N, threshold=T (biased), or by roulette: constant=Q, reflectance, throughput (default). From --rr-depth on");
+    c->add_option("--roulette-number", estimate.number, "own (default), or rescaled: the direction's number decides and is stretched anew (diffuse surfaces)");
+    c->add_option("--branching", estimate.branching, "Light samples and directions at every vertex (default 1)")->check(CLI::Range(1, 1024));
+    c->add_option("--stats", estimate.stats, "Also write the ledger as JSON");
+    c->add_option("-t,--threads", estimate.threads, "Threads; 0: all (the image does not depend on it)")->check(CLI::Range(0, 4096));
+    c->add_flag("-q,--quiet", estimate.quiet, "Do not print the ledger");
+    c->final_callback([&] { action = [&] { return run_estimate(estimate, registry); }; });
+
+    AdaptiveCommand adaptive;
+    c = app.add_subcommand("adaptive", "Render with more samples where a pilot found more noise, --spp on average; the image has a channel `samples`");
+    add_scene_options(c, adaptive.scene);
+    c->add_option("-o,--output", adaptive.output, "Image to write (.exr)")->required();
+    c->add_option("--mode", adaptive.mode, "two-stage (default): the pilot is discarded, no bias; one-stage: it is kept, with a bias");
+    c->add_option("--most", adaptive.most, "Most samples of a pixel (default 1024)")->check(CLI::Range(std::uint64_t{4}, std::uint64_t{1} << 20));
+    c->add_option("-t,--threads", adaptive.threads, "Threads; 0: all (the image does not depend on it)")->check(CLI::Range(0, 4096));
+    c->add_flag("-q,--quiet", adaptive.quiet, "Print nothing");
+    c->final_callback([&] { action = [&] { return run_adaptive(adaptive, registry); }; });
 
     MergeCommand merge;
     c = app.add_subcommand("merge", "Put the parts of a bench --shard run together");
