@@ -27,6 +27,7 @@ struct SceneArguments {
     std::optional<std::uint64_t> seed;
     std::optional<int> max_depth, rr_depth;
     std::vector<int> crop;                       ///< x, y, width, height; empty: the scene's
+    std::string technique;                       ///< mis, light or bsdf; empty: the scene's
 };
 
 struct RenderCommand {
@@ -117,6 +118,8 @@ int run_plan(const PlanCommand& command, const Registry& registry);
 int run_compare(const CompareCommand& command);
 int run_samplers(bool json, const Registry& registry);
 int run_bench(const BenchCommand& command, const Registry& registry, const std::string& command_line);
+/// The robustness ladder: `bench ladder`.
+int run_ladder(const BenchCommand& command, const Registry& registry, const std::string& command_line);
 int run_merge(const MergeCommand& command);
 int run_reference(const ReferenceCommand& command, const Registry& registry);
 int run_check(const CheckCommand& command, const Registry& registry);

@@ -12,8 +12,8 @@ inline constexpr EffectSet kDiffuseTexturedEffects =
 inline constexpr EffectSet kSpecularEffects =
     kDiffuseEffects | EffectSet{Effect::analytic_shape, Effect::sphere_light, Effect::specular, Effect::dielectric, Effect::lobe};
 
-/// The batch kernel looks up textures by (u, v) alone.
-inline constexpr EffectSet kBatchAllEffects = EffectSet::all().without(Effect::mesh_attribute);
+/// The batch kernel looks up textures by (u, v) alone, and always combines techniques.
+inline constexpr EffectSet kBatchAllEffects = EffectSet::all().without(Effect::mesh_attribute).without(Effect::one_technique);
 
 // One function a variant, one source file each, so that they compile in parallel.
 std::unique_ptr<Tracer> make_reference_diffuse(const TraceJob& job);

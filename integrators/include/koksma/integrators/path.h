@@ -27,6 +27,14 @@ struct NoObserver {
 /// After so many bounces in a row without any loss a path is played for.
 inline constexpr std::int32_t kLosslessBounces = 256;
 
+/// Weight of a sample that `own` could draw with density a and the other technique with density b.
+template <EffectSet kEffects>
+[[nodiscard]] float technique_weight(const IntegratorSettings& settings, Technique own, float a, float b) noexcept {
+    if constexpr (kEffects.has(Effect::one_technique))
+        if (settings.technique != Technique::both) return settings.technique == own ? 1.0f : 0.0f;
+    return power_heuristic(a, b);
+}
+
 /// The radiance along one camera sample: emission, next-event estimation and BSDF sampling combined by the power heuristic,
 /// Russian roulette without a cap.
 /// @param draws     with the path selected
@@ -73,8 +81,9 @@ template <EffectSet kEffects, class Observer>
                     const Vec3f le = environment_radiance<kEffects>(scene, ray.d);
                     float weight = 1.0f;
                     if (!last_was_delta)
-                        weight = power_heuristic(pdf_bsdf, environment_pdf<kEffects>(scene, ray.d) *
-                                                               light_probability(static_cast<std::uint32_t>(scene.environment_light)));
+                        weight = technique_weight<kEffects>(settings, Technique::bsdf, pdf_bsdf,
+                                                            environment_pdf<kEffects>(scene, ray.d) *
+                                                                light_probability(static_cast<std::uint32_t>(scene.environment_light)));
                     radiance += beta * le * weight;
                     observer.escaped(ray.d, beta * le * weight, weight);
                 }
@@ -93,8 +102,9 @@ template <EffectSet kEffects, class Observer>
                 if (!last_was_delta) {
                     const auto index = static_cast<std::uint32_t>(scene.geometries[surface.geometry].light);
                     const std::uint32_t triangle = chosen_triangle<kEffects>(scene, index, hit.primitive);
-                    weight = power_heuristic(pdf_bsdf, light_pdf<kEffects>(scene, scene.lights[index], last_p, surface, ray.d, triangle) *
-                                                           light_probability(index, triangle));
+                    weight = technique_weight<kEffects>(settings, Technique::bsdf, pdf_bsdf,
+                                                        light_pdf<kEffects>(scene, scene.lights[index], last_p, surface, ray.d, triangle) *
+                                                            light_probability(index, triangle));
                 }
                 radiance += beta * le * weight;
                 observer.emission(beta * le * weight, weight);
@@ -118,7 +128,8 @@ template <EffectSet kEffects, class Observer>
                 if (light.pdf_w > 0.0f && choice.probability > 0.0f) {
                     const BsdfValue value = eval_local<kEffects>(scene, local, wo_local, local.frame.to_local(light.wi));
                     const float pdf_light = light.pdf_w * choice.probability;
-                    const float weight = light.delta ? 1.0f : power_heuristic(pdf_light, value.pdf_w);
+                    const float weight =
+                        light.delta ? 1.0f : technique_weight<kEffects>(settings, Technique::light, pdf_light, value.pdf_w);
                     const Vec3f contribution = beta * value.f_cos * light.radiance * (weight / pdf_light);
                     if (!(sum(contribution) <= 0.0f)) {  // a NaN goes on, to be counted
                         Ray shadow;

@@ -30,14 +30,16 @@ enum class Effect : std::uint8_t {
     mesh_attribute,   ///< textures that look up values of vertices and faces
     lobe,             ///< BSDFs that choose among lobes: a 1-D draw per bounce
     layered,          ///< materials of several lobes or parts (koksma/scene/bsdf/layered.h), computed one path at a time
+    one_technique,    ///< direct light by light sampling alone or by BSDF sampling alone, for comparisons
 };
-inline constexpr int kEffectCount = 20;
+inline constexpr int kEffectCount = 21;
 
 [[nodiscard]] constexpr std::string_view name(Effect e) noexcept {
     constexpr std::string_view kNames[kEffectCount] = {"lens",       "light_choice", "area_light", "sphere_light",   "point_light",
                                                        "environment", "diffuse",      "glossy",     "specular",       "dielectric",
                                                        "two_sided",  "texture",      "analytic_shape", "shading_normals", "anisotropic",
-                                                       "roulette",   "many_lights",  "mesh_attribute", "lobe",          "layered"};
+                                                       "roulette",   "many_lights",  "mesh_attribute", "lobe",          "layered",
+                                                       "one_technique"};
     return kNames[static_cast<int>(e)];
 }
 

@@ -286,11 +286,16 @@ struct FilmSettings {
     ReconstructionFilter filter{};
 };
 
+/// How light that reaches a surface straight from a light is estimated. `light` and `bsdf` are for comparisons: each is right by itself
+/// wherever it can make the direction at all (mirrors are left to the BSDF, points to light sampling), and noisy elsewhere.
+enum class Technique : std::uint8_t { both, light, bsdf };
+
 struct IntegratorSettings {
     std::int32_t max_depth = -1;  ///< longest path in vertices after the camera; 1: emission seen directly; -1: no limit
     std::int32_t rr_depth = 5;    ///< roulette from this depth on
     bool hide_emitters = false;   ///< directly visible emitters are black
-    std::string moments;          ///< name under which moments of the samples are written beside the image; empty: none are kept
+    Technique technique = Technique::both;
+    std::string moments;  ///< name under which moments of the samples are written beside the image; empty: none are kept
 };
 
 /// The whole of a scene file.
