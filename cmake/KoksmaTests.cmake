@@ -14,10 +14,10 @@ endif()
 target_include_directories(koksma_catch INTERFACE ${PROJECT_SOURCE_DIR}/tests)
 include(Catch)
 
-# koksma_add_test(<name> LABELS <label>... SOURCES <file>... [SAMPLERS ALL | <name>...] [LINK <target>...])
+# koksma_add_test(<name> LABELS <label>... SOURCES <file>... [SAMPLERS ALL | <name>...] [LINK <target>...] [PROPERTIES <key> <value>...])
 #   One program, one CTest test per TEST_CASE, named "<name>: <test case>".
 function(koksma_add_test name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "LABELS;SOURCES;SAMPLERS;LINK")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "LABELS;SOURCES;SAMPLERS;LINK;PROPERTIES")
   add_executable(test_${name} ${arg_SOURCES})
   koksma_target(test_${name})
   target_link_libraries(test_${name} PRIVATE koksma_catch koksma::sampling ${arg_LINK})
@@ -25,8 +25,16 @@ function(koksma_add_test name)
   if(arg_SAMPLERS)
     koksma_link_samplers(test_${name} ${arg_SAMPLERS})
   endif()
+  koksma_discover_tests(${name} PREFIX "${name}: " LABELS ${arg_LABELS} PROPERTIES ${arg_PROPERTIES})
+endfunction()
+
+# koksma_discover_tests(<name> PREFIX <prefix> LABELS <label>... [SPEC <Catch2 test spec>] [PROPERTIES <key> <value>...])
+#   The test cases of a program as CTest tests; once more for those of a spec that are to run in another environment.
+function(koksma_discover_tests name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "PREFIX;SPEC" "LABELS;PROPERTIES")
   # Catch's script cannot carry a list of labels; ctest -L and -LE search within a label, so "hard-slow" is found by both words.
   list(JOIN arg_LABELS "-" labels)
-  catch_discover_tests(test_${name} TEST_PREFIX "${name}: " DISCOVERY_MODE PRE_TEST PROPERTIES LABELS "${labels}" TIMEOUT 600
-                       SKIP_REGULAR_EXPRESSION "SKIPPED: ")
+  catch_discover_tests(test_${name} TEST_SPEC ${arg_SPEC}
+                       TEST_PREFIX "${arg_PREFIX}" DISCOVERY_MODE PRE_TEST
+                       PROPERTIES LABELS "${labels}" TIMEOUT 600 SKIP_REGULAR_EXPRESSION "SKIPPED: " ${arg_PROPERTIES})
 endfunction()

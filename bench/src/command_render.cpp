@@ -16,6 +16,8 @@ namespace koksma {
 
 namespace {
 
+const char* technique_name(Technique t) { return t == Technique::light ? "light" : t == Technique::bsdf ? "bsdf" : "mis"; }
+
 nlohmann::ordered_json stats_json(const SceneSetup& setup, const RenderResult& result) {
     const RenderStats& s = result.stats;
     const Vec3d mean = result.film.mean();
@@ -31,6 +33,7 @@ nlohmann::ordered_json stats_json(const SceneSetup& setup, const RenderResult& r
             {"crop", {setup.rect().x, setup.rect().y, setup.rect().width, setup.rect().height}},
             {"max_depth", setup.plan.integrator.max_depth},
             {"rr_depth", setup.plan.integrator.rr_depth},
+            {"technique", technique_name(setup.plan.integrator.technique)},
             {"effects", setup.plan.effects.names()},
             {"dimensions", setup.plan.layout.dimensions()},
             {"kernel", s.kernel},
@@ -90,6 +93,7 @@ ExrImage image_of(const RenderCommand& command, const SceneSetup& setup, const R
                       {"koksma:seed", std::to_string(setup.seed)},
                       {"koksma:max_depth", std::to_string(setup.plan.integrator.max_depth)},
                       {"koksma:rr_depth", std::to_string(setup.plan.integrator.rr_depth)},
+                      {"koksma:technique", technique_name(setup.plan.integrator.technique)},
                       {"koksma:invalid_samples", std::to_string(result.stats.invalid_samples)}};
     return exr;
 }

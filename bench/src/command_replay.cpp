@@ -31,6 +31,8 @@ SceneArguments with_settings_of(SceneArguments a, const ExrImage& image, const s
             throw Error(fmt::format("{}: its attribute koksma:{} is '{}', expected an integer; give the value on the command line", file, key, text));
         value = parsed;
     };
+    if (const auto it = image.attributes.find("koksma:technique"); a.technique.empty() && it != image.attributes.end())
+        a.technique = it->second;
     number("spp", a.spp);
     number("seed", a.seed);
     number("max_depth", a.max_depth);

@@ -27,6 +27,7 @@ struct SceneArguments {
     std::optional<std::uint64_t> seed;
     std::optional<int> max_depth, rr_depth;
     std::vector<int> crop;                       ///< x, y, width, height; empty: the scene's
+    std::string technique;                       ///< mis, light or bsdf; empty: the scene's
 };
 
 struct RenderCommand {
@@ -158,6 +159,8 @@ int run_budget(const BudgetCommand& command, const Registry& registry, const std
 int run_estimate(const EstimateCommand& command, const Registry& registry);
 int run_adaptive(const AdaptiveCommand& command, const Registry& registry);
 int run_lecture(const LectureCommand& command, const Registry& registry, const std::string& command_line);
+/// The robustness ladder: `bench ladder`.
+int run_ladder(const BenchCommand& command, const Registry& registry, const std::string& command_line);
 int run_merge(const MergeCommand& command);
 int run_reference(const ReferenceCommand& command, const Registry& registry);
 int run_check(const CheckCommand& command, const Registry& registry);

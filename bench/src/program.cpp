@@ -37,6 +37,9 @@ void add_render_settings(CLI::App* app, SceneArguments& a) {
     app->add_option("--seed", a.seed, "Seed, below 2^63; every seed is an independent replicate (default 0)")->check(not_a_count);
     app->add_option("--max-depth", a.max_depth, "Longest path in vertices: 1 sees emission only, -1 has no limit");
     app->add_option("--rr-depth", a.rr_depth, "Russian roulette from this depth on");
+    app->add_option("--technique", a.technique,
+                    "Direct light by light sampling or BSDF sampling alone: light, bsdf; mis: both (default: the scene's)")
+        ->check(CLI::IsMember({"mis", "light", "bsdf"}));
     app->add_option("--crop", a.crop, "Render only this part of the film: X,Y,WIDTH,HEIGHT")->delimiter(',')->expected(4);
     app->add_option("-D", a.defines, "Value of a scene parameter: name=value")->take_all()->allow_extra_args(false);
 }
@@ -77,7 +80,8 @@ int run_program(int argc, char** argv) {
 
     BenchCommand bench;
     c = app.add_subcommand("bench", "Run an experiment: error against samples and against seconds, with a report");
-    c->add_option("experiment", bench.experiment, "Name of an experiment or a JSON file (default: default)");
+    c->add_option("experiment", bench.experiment,
+                  "Name of an experiment or a JSON file (default: default); ladder: scenes with known answers, each to where float ends");
     c->add_option("-o,--out", bench.out, "Folder for results.jsonl, summary.json and report.html (default: koksma-bench/NAME)");
     c->add_flag("--quick", bench.quick, "Fewer samples and replicates: under a minute");
     c->add_flag("--dry-run", bench.dry_run, "Only say what would be rendered and what it would cost");
@@ -90,7 +94,9 @@ int run_program(int argc, char** argv) {
     const std::string command_line = joined(argc, argv);
     CLI::App* const bench_app = c;
     c->final_callback([&, bench_app] {
-        if (bench_app->get_subcommands().empty()) action = [&] { return run_bench(bench, registry, command_line); };
+        if (bench_app->get_subcommands().empty()) action = [&] {
+                return bench.experiment == "ladder" ? run_ladder(bench, registry, command_line) : run_bench(bench, registry, command_line);
+            };
     });
     c->footer("Experiments of their own: koksma bench budget --help, koksma bench lecture --help");
 

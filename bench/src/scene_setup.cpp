@@ -35,6 +35,10 @@ SceneSetup set_up(const SceneArguments& a, const Registry& registry) {
     SceneDescription description = load_scene(a.scene, parameters_of(a.defines));
     if (a.max_depth) description.integrator.max_depth = *a.max_depth;
     if (a.rr_depth) description.integrator.rr_depth = *a.rr_depth;
+    if (!a.technique.empty())
+        description.integrator.technique = a.technique == "light"  ? Technique::light
+                                           : a.technique == "bsdf" ? Technique::bsdf
+                                                                   : Technique::both;
     if (!a.crop.empty()) {
         FilmSettings& film = description.film;
         if (a.crop[0] < 0 || a.crop[1] < 0 || a.crop[2] < 1 || a.crop[3] < 1 || a.crop[0] > film.width - a.crop[2] || a.crop[1] > film.height - a.crop[3])

@@ -15,8 +15,8 @@ inline constexpr EffectSet kSpecularEffects =
 /// Paths that are bounces on surfaces and nothing else.
 inline constexpr EffectSet kSurfaceEffects =
     EffectSet::all().without(Effect::medium).without(Effect::heterogeneous).without(Effect::null_boundary).without(Effect::mask);
-/// The batch kernel looks up textures by (u, v) alone.
-inline constexpr EffectSet kBatchAllEffects = kSurfaceEffects.without(Effect::mesh_attribute);
+/// The batch kernel looks up textures by (u, v) alone, and always combines techniques.
+inline constexpr EffectSet kBatchAllEffects = kSurfaceEffects.without(Effect::mesh_attribute).without(Effect::one_technique);
 
 // One function a variant, one source file each, so that they compile in parallel.
 std::unique_ptr<Tracer> make_reference_diffuse(const TraceJob& job);

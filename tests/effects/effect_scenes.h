@@ -124,6 +124,12 @@ struct EffectScene {
         add(Effect::layered, d);
     }
 
+    for (const Technique t : {Technique::light, Technique::bsdf}) {
+        d = floor_scene();
+        d.integrator.technique = t;
+        add(Effect::one_technique, d);
+    }
+
     d = floor_scene();
     const std::uint32_t both = add_diffuse(d, 0.7f, true);
     add_shape(d, RectangleShape{}, translated({0, 0.7, 0}) * rotated({1, 0, 0}, 150) * scaled(0.5), both);

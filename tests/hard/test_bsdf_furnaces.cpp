@@ -1,6 +1,6 @@
 // Planes and spheres under a constant sky of radiance 1.
 
-#include <scenes/render_scene.h>
+#include "under_sky.h"
 
 #include <numbers>
 
@@ -10,17 +10,6 @@ using namespace koksma::testing;
 namespace {
 
 constexpr EffectSet kAll = EffectSet::all();
-
-/// A wide floor seen under an angle from its normal.
-SceneDescription plane_under_sky(OneSidedMaterial material, double degrees, bool two_sided = false) {
-    SceneDescription d = empty_scene();
-    const std::uint32_t m = add_material(d, std::move(material), two_sided);
-    add_shape(d, RectangleShape{}, scaled(1e3) * kUp, m);
-    d.environment = ConstantEnvironment{};
-    const double a = glm::radians(degrees);
-    look_narrowly(d, {std::sin(a), std::cos(a), 0}, {0, 0, 0});
-    return d;
-}
 
 OneSidedMaterial rough(float alpha, RoughConductor::Distribution distribution = RoughConductor::Distribution::ggx) {
     RoughConductor r;
@@ -36,16 +25,6 @@ Dielectric glass(double index) {
     return g;
 }
 
-SceneDescription glass_under_sky(Geometry geometry, double index) {
-    SceneDescription d = empty_scene();
-    const std::uint32_t m = add_material(d, glass(index));
-    add_shape(d, std::move(geometry), Matrix(1.0), m);
-    d.environment = ConstantEnvironment{};
-    d.camera.fov_x_degrees = 30;
-    d.camera.to_world = look_at({0.2, 0.3, -4}, {0, 0, 0});
-    return d;
-}
-
 /// F + (1 - F) n^2: what a camera inside index n sees of a sky of 1 outside and 1 inside.
 double from_inside(double degrees, double n) {
     const double ci = std::cos(glm::radians(degrees)), s = std::sin(glm::radians(degrees)) * n;
@@ -58,7 +37,7 @@ double from_inside(double degrees, double n) {
 
 }  // namespace
 
-TEST_CASE("C1: a white diffuse surface vanishes before a white sky", "[hard]") {
+TEST_CASE("C1: a white diffuse surface vanishes before a white sky", "[hard][render]") {
     SceneDescription d = empty_scene();
     const std::uint32_t white = add_diffuse(d, 1.0f);
     add_shape(d, SphereShape{}, Matrix(1.0), white);
@@ -69,7 +48,7 @@ TEST_CASE("C1: a white diffuse surface vanishes before a white sky", "[hard]") {
     check_mean(measure(plane_under_sky(Diffuse{Rgb(1.0f)}, 80, true), 4096, 8), 1.0, 1e-3);
 }
 
-TEST_CASE("C2: a mirror reflects the whole sky at every angle", "[hard]") {
+TEST_CASE("C2: a mirror reflects the whole sky at every angle", "[hard][render]") {
     for (const double degrees : {0.0, 30.0, 60.0, 85.0, 89.0, 89.9, 89.99}) {
         SceneDescription d = plane_under_sky(Conductor{}, degrees);
         INFO("angle " << degrees);
@@ -77,39 +56,39 @@ TEST_CASE("C2: a mirror reflects the whole sky at every angle", "[hard]") {
     }
 }
 
-TEST_CASE("C3: clear glass of any index vanishes before a white sky", "[hard]") {
+TEST_CASE("C3: clear glass of any index vanishes before a white sky", "[hard][render]") {
     for (const double n : {1.0, 1.0 + 1e-7, 1.0 + 1e-6}) {
         INFO("index " << n);
-        check_mean(measure(glass_under_sky(SphereShape{}, n), 64, 4), 1.0, 1e-6);
-        check_mean(measure(glass_under_sky(CubeShape{}, n), 64, 4), 1.0, 1e-6);
+        check_mean(measure(shape_under_sky(SphereShape{}, glass(n)), 64, 4), 1.0, 1e-6);
+        check_mean(measure(shape_under_sky(CubeShape{}, glass(n)), 64, 4), 1.0, 1e-6);
     }
     for (const double n : {1.0001, 1.5, 2.4, 0.5}) {
         INFO("index " << n);
-        check_mean(measure(glass_under_sky(SphereShape{}, n), 1024, 8), 1.0, 1e-3);
+        check_mean(measure(shape_under_sky(SphereShape{}, glass(n)), 1024, 8), 1.0, 1e-3);
     }
     for (const double n : {1.5, 2.4}) {
-        SceneDescription d = glass_under_sky(CubeShape{}, n);
+        SceneDescription d = shape_under_sky(CubeShape{}, glass(n));
         d.integrator.max_depth = 512;  // a cube of glass holds some paths for ever
         INFO("cube of index " << n);
         check_mean(measure(d, 1024, 8), 1.0, 1e-3);
     }
 }
 
-TEST_CASE("C4: radiance in glass is larger by the square of the index, and nothing gets in beyond the critical angle", "[hard]") {
+TEST_CASE("C4: radiance in glass is larger by the square of the index, and nothing gets in beyond the critical angle", "[hard][render]") {
     for (const double n : {1.5, 2.4}) {
-        SceneDescription d = glass_under_sky(SphereShape{}, n);
+        SceneDescription d = shape_under_sky(SphereShape{}, glass(n));
         d.camera.to_world = look_at({0.3, 0, 0}, {0.3, 0.2, 1});
         INFO("index " << n);
         check_mean(measure(d, 2048, 8), n * n, 2e-3);
     }
     // At 0.9 of the radius all rays in the plane of the circle meet the surface at sin > 1 / 1.5, for ever: a limit is needed.
-    SceneDescription trapped = glass_under_sky(SphereShape{}, 1.5);
+    SceneDescription trapped = shape_under_sky(SphereShape{}, glass(1.5));
     look_narrowly(trapped, {0.9, 0, 0}, {0.9, 0, 1});
     trapped.integrator.max_depth = 1000;
     CHECK(measure(trapped, 16, 2).mean == 0.0);
 }
 
-TEST_CASE("C5: from inside glass, up to the edge of total reflection", "[hard]") {
+TEST_CASE("C5: from inside glass, up to the edge of total reflection", "[hard][render]") {
     for (const double degrees : {30.0, 41.0, 41.7, 41.8, 41.81, 41.9, 60.0, 89.0}) {
         SceneDescription d = plane_under_sky(glass(1.5), degrees);
         const double a = glm::radians(degrees);
@@ -123,7 +102,7 @@ TEST_CASE("C5: from inside glass, up to the edge of total reflection", "[hard]")
     CHECK(from_inside(41.81, 1.5) == Approx(1.02518079359).epsilon(1e-6));
 }
 
-TEST_CASE("C6: GGX with uncorrelated masking has the single-scattering albedo of its model", "[hard]") {
+TEST_CASE("C6: GGX with uncorrelated masking has the single-scattering albedo of its model", "[hard][render]") {
     struct Row {
         float alpha;
         double at_0, at_60, at_85;
@@ -137,7 +116,7 @@ TEST_CASE("C6: GGX with uncorrelated masking has the single-scattering albedo of
     }
 }
 
-TEST_CASE("C7: GGX of roughness 1e-3 and 1e-4 loses nothing", "[hard]") {
+TEST_CASE("C7: GGX of roughness 1e-3 and 1e-4 loses nothing", "[hard][render]") {
     for (const float alpha : {1e-3f, 1e-4f})
         for (const double degrees : {0.0, 60.0, 85.0}) {
             INFO("alpha " << alpha << " angle " << degrees);
@@ -157,7 +136,7 @@ TEST_CASE("C8: the peak of GGX is 1 / (pi alpha^2) and falls off in time", "[har
     CHECK(static_cast<double>(m.d({static_cast<float>(s), 0, static_cast<float>(c)})) == Approx(190661.0).epsilon(2e-5));
 }
 
-TEST_CASE("C9: a highlight depends on the light's solid angle over alpha squared alone", "[hard]") {
+TEST_CASE("C9: a highlight depends on the light's solid angle over alpha squared alone", "[hard][render]") {
     // 30 degrees from the normal; the light is a sphere in the mirror direction. Where masking is 1 the answer is the GGX
     // probability of the ellipse of slopes that reflect to it, with semi-axes theta / 2 and theta / (2 cos 30 deg):
     // the mean over the circle of r^2 / (1 + r^2) is 1 / sqrt((1 + 4 pi / ratio) (1 + 4 pi cos^2(30 deg) / ratio)).
@@ -174,7 +153,7 @@ TEST_CASE("C9: a highlight depends on the light's solid angle over alpha squared
         }
 }
 
-TEST_CASE("C13: shading normals that point elsewhere make neither light nor NaN", "[hard]") {
+TEST_CASE("C13: shading normals that point elsewhere make neither light nor NaN", "[hard][render]") {
     const auto quad = [](glm::vec3 normal) {
         return mesh({{-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1}}, {{0, 1, 2}, {0, 2, 3}}, {normal, normal, normal, normal});
     };
@@ -215,8 +194,8 @@ TEST_CASE("C14: grazing light is not cut off by a threshold", "[hard]") {
 
 // Without a limit the path ends after 1 512 449 vertices, when rounding lets it out, half a second later: survival is beta times the
 // square of the index, here exactly 1.
-TEST_CASE("C4: a path that is trapped in glass comes to an end by itself", "[hard]") {
-    SceneDescription d = glass_under_sky(SphereShape{}, 1.5);
+TEST_CASE("C4: a path that is trapped in glass comes to an end by itself", "[hard][render]") {
+    SceneDescription d = shape_under_sky(SphereShape{}, glass(1.5));
     look_narrowly(d, {0.9, 0, 0}, {0.9, 0, 1});
     d.integrator.max_depth = 100000;
     const RenderStats stats = Ready(d).render("random", 1, 1).stats;

@@ -20,13 +20,13 @@ SceneDescription mirror_cube(float a, float le) {
 
 }  // namespace
 
-TEST_CASE("A1: a cube of albedo 0.5 that emits 1 shows 2", "[hard]") {
+TEST_CASE("A1: a cube of albedo 0.5 that emits 1 shows 2", "[hard][render]") {
     const Ready ready(furnace(CubeShape{}, Matrix(1.0), 0.5f, 1.0f));
     check_mean(measure(ready, 2048, 8, kSobol), 2.0, 1e-3);
     check_mean(measure(ready, 2048, 8, "random"), 2.0, 1e-3);
 }
 
-TEST_CASE("A2: max_depth N truncates the series to N terms", "[hard]") {
+TEST_CASE("A2: max_depth N truncates the series to N terms", "[hard][render]") {
     SceneDescription d = furnace(CubeShape{}, Matrix(1.0), 0.5f, 1.0f);
     d.integrator.rr_depth = kNoRoulette;
     for (const int n : {1, 2, 3, 6, 11}) {
@@ -42,7 +42,7 @@ TEST_CASE("A2: max_depth N truncates the series to N terms", "[hard]") {
     CHECK(measure(d, 16, 2).mean == 0.0);
 }
 
-TEST_CASE("A3: roulette keeps its mean and its variance at albedo 0.99", "[hard]") {
+TEST_CASE("A3: roulette keeps its mean and its variance at albedo 0.99", "[hard][render]") {
     // The relative standard deviation of a path is 0.995 with survival beta: 0.4 % at 65536 paths. A cap of 0.95 would make the
     // variance infinite, and the mean of most runs low by 10 %.
     const SceneDescription d = furnace(CubeShape{}, Matrix(1.0), 0.99f, 0.01f);
@@ -51,7 +51,7 @@ TEST_CASE("A3: roulette keeps its mean and its variance at albedo 0.99", "[hard]
     CHECK(m.highest - m.lowest < 0.1);
 }
 
-TEST_CASE("A4: survival beta from the first bounce on has the geometric law's variance", "[hard]") {
+TEST_CASE("A4: survival beta from the first bounce on has the geometric law's variance", "[hard][render]") {
     // With beta back at 1 after each survival a path's value is its number of vertices: variance a / (1 - a)^2.
     for (const float a : {0.5f, 0.9f}) {
         SceneDescription d = mirror_cube(a, 1.0f);
@@ -73,7 +73,7 @@ TEST_CASE("A4: survival beta from the first bounce on has the geometric law's va
     }
 }
 
-TEST_CASE("A6: roulette sees what a path inside glass carries without the square of the index", "[hard]") {
+TEST_CASE("A6: roulette sees what a path inside glass carries without the square of the index", "[hard][render]") {
     // From inside n = 2.4 beta reaches 5.76; a roulette that took it for 1 would have to stop paths at random.
     SceneDescription d = empty_scene();
     Dielectric glass;
@@ -87,7 +87,7 @@ TEST_CASE("A6: roulette sees what a path inside glass carries without the square
     check_mean(measure(d, 4096, 8), 5.76, 1e-3);
 }
 
-TEST_CASE("A7: a cube of shining mirrors sums the geometric series", "[hard]") {
+TEST_CASE("A7: a cube of shining mirrors sums the geometric series", "[hard][render]") {
     SceneDescription d = mirror_cube(0.9f, 1.0f - 0.9f);
     d.integrator.rr_depth = kNoRoulette;
     check_mean(measure(d, 16, 4), 1.0, 1e-6);
@@ -101,7 +101,7 @@ TEST_CASE("A7: a cube of shining mirrors sums the geometric series", "[hard]") {
     check_noise(measure(d, 512, 8), 1.0, 0.02);
 }
 
-TEST_CASE("A8: two mirrors that face each other, one of which shines", "[hard]") {
+TEST_CASE("A8: two mirrors that face each other, one of which shines", "[hard][render]") {
     for (const float a : {0.5f, 0.9f}) {
         SceneDescription d = empty_scene();
         Conductor mirror;
@@ -115,7 +115,7 @@ TEST_CASE("A8: two mirrors that face each other, one of which shines", "[hard]")
     }
 }
 
-TEST_CASE("A9: a sphere that is lit by itself shows 2, wherever it stands", "[hard]") {
+TEST_CASE("A9: a sphere that is lit by itself shows 2, wherever it stands", "[hard][render]") {
     for (const double o : {0.0, 1.0, 10.0, 100.0, 1000.0}) {
         SceneDescription d = furnace(SphereShape{}, translated(glm::dvec3(o)), 0.5f, 1.0f);
         d.camera.to_world = translated({o + 0.1, o, o});

@@ -22,12 +22,12 @@ SceneDescription floor_under_texel(int width, int height, int column, int row, f
 
 }  // namespace
 
-TEST_CASE("D7: one bright texel gives the irradiance of its tent", "[hard]") {
+TEST_CASE("D7: one bright texel gives the irradiance of its tent", "[hard][render]") {
     // By Mitsuba's convention, rows on the poles: 12.0303849. Measured there: 12.03038.
     check_mean(measure(floor_under_texel(512, 256, 100, 64, 1e6f), 4096, 8), 12.0303849, 1e-3);
 }
 
-TEST_CASE("D8: the seam of the map is like any other column", "[hard]") {
+TEST_CASE("D8: the seam of the map is like any other column", "[hard][render]") {
     const double at_seam = measure(floor_under_texel(512, 256, 0, 64, 1e6f), 4096, 8).mean;
     for (const int column : {1, 128, 256, 511}) {
         const Measured m = measure(floor_under_texel(512, 256, column, 64, 1e6f), 4096, 8);
@@ -37,7 +37,7 @@ TEST_CASE("D8: the seam of the map is like any other column", "[hard]") {
     }
 }
 
-TEST_CASE("D8: bright texels by the pole of a large map are not lost", "[hard]") {
+TEST_CASE("D8: bright texels by the pole of a large map are not lost", "[hard][render]") {
     // A row of the tent next to the pole, in closed form: the irradiance of the ring is sum over cells of radiance cos omega.
     // Compared with the same ring in a map of a quarter of the columns: the tent in azimuth integrates to the same.
     const auto ring = [](int width, int height, int row) {
@@ -64,7 +64,7 @@ TEST_CASE("D8: bright texels by the pole of a large map are not lost", "[hard]")
     }
 }
 
-TEST_CASE("D9: a black map is dark and makes no NaN", "[hard]") {
+TEST_CASE("D9: a black map is dark and makes no NaN", "[hard][render]") {
     const Measured m = measure(floor_under_texel(16, 8, 0, -1, 0.0f), 256, 4);
     CHECK(m.mean == 0.0);
     CHECK(m.invalid == 0);

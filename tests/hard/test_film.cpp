@@ -19,7 +19,7 @@ TEST_CASE("E2: no fraction below 1 becomes 1", "[hard]") {
     CHECK(unit_float_ceil(3486784400ull, 3486784401ull) < 1.0f);
 }
 
-TEST_CASE("E4: a sample stays in its pixel", "[hard]") {
+TEST_CASE("E4: a sample stays in its pixel", "[hard][render]") {
     SceneDescription d = empty_scene(16384, 1);
     d.camera.fov_x_degrees = 90;
     const Scene scene = compile(d);
@@ -37,7 +37,7 @@ TEST_CASE("E4: a sample stays in its pixel", "[hard]") {
     CHECK(film.count({16383, 0}) == 4);
 }
 
-TEST_CASE("E9: films of one row or one column, one sample and a million", "[hard]") {
+TEST_CASE("E9: films of one row or one column, one sample and a million", "[hard][render]") {
     for (const auto& [w, h] : {std::pair{1, 1}, {1, 7}, {7, 1}, {3, 5}, {17, 9}})
         for (const auto& [le, expected] : {std::pair{1.0f, 1.0}, {0.1f, double{0.1f}}}) {
             SceneDescription d = empty_scene(w, h);
@@ -47,7 +47,7 @@ TEST_CASE("E9: films of one row or one column, one sample and a million", "[hard
         }
 }
 
-TEST_CASE("E10: a million samples of 0.1 have the mean 0.1", "[hard]") {
+TEST_CASE("E10: a million samples of 0.1 have the mean 0.1", "[hard][render]") {
     SceneDescription d = empty_scene(1, 1);
     d.environment = ConstantEnvironment{Rgb(0.1f), {}};
     const Film film = Ready(d).render("random", 1 << 20, 1).film;

@@ -38,7 +38,7 @@ std::string compile_error(const SceneDescription& d) {
 
 }  // namespace
 
-TEST_CASE("D1: a small sphere lights the floor alike at every solid angle", "[hard]") {
+TEST_CASE("D1: a small sphere lights the floor alike at every solid angle", "[hard][render]") {
     for (const double omega : {1e-2, 1e-5, 1e-6, 3e-7, 1e-7, 1e-8, 1e-10, 1e-12}) {
         const double ratio = std::sqrt(omega / kPiDouble);
         for (const double distance : {1.0, 30.0}) {
@@ -57,7 +57,7 @@ TEST_CASE("D1: a small sphere lights the floor alike at every solid angle", "[ha
     }
 }
 
-TEST_CASE("D1: a sphere too small for a float direction to tell its points apart still lights the floor", "[hard]") {
+TEST_CASE("D1: a sphere too small for a float direction to tell its points apart still lights the floor", "[hard][render]") {
     for (const double omega : {1e-13, 1e-14, 1e-16}) {
         SceneDescription d = floor_seen_at(0);
         add_light(d, SphereShape{}, translated({0, 1, 0}) * scaled(std::sqrt(omega / kPiDouble)), Rgb(static_cast<float>(kPiDouble / omega)));
@@ -66,7 +66,7 @@ TEST_CASE("D1: a sphere too small for a float direction to tell its points apart
     }
 }
 
-TEST_CASE("D2: a small rectangle or disk lights the floor alike at every area", "[hard]") {
+TEST_CASE("D2: a small rectangle or disk lights the floor alike at every area", "[hard][render]") {
     // The camera is right below the light: coordinates relative to it are exact.
     const auto floor_from_above = [] {
         SceneDescription d = empty_scene();
@@ -86,7 +86,7 @@ TEST_CASE("D2: a small rectangle or disk lights the floor alike at every area", 
     }
 }
 
-TEST_CASE("D2: a small rectangle away from the camera's axes keeps its power", "[hard]") {
+TEST_CASE("D2: a small rectangle away from the camera's axes keeps its power", "[hard][render]") {
     for (const double half : {1e-3, 1e-4, 1e-5, 1e-6}) {
         SceneDescription d = floor_seen_at(0, 1.0, 1e-6);
         add_light(d, RectangleShape{}, translated({0, 1, 0}) * scaled(half) * kDown, Rgb(static_cast<float>(kPiDouble / (4.0 * half * half))));
@@ -96,7 +96,7 @@ TEST_CASE("D2: a small rectangle away from the camera's axes keeps its power", "
     }
 }
 
-TEST_CASE("D3: a large close rectangle has its form factor", "[hard]") {
+TEST_CASE("D3: a large close rectangle has its form factor", "[hard][render]") {
     CHECK(square_form_factor(1.0) == Approx(0.554126423980).epsilon(1e-11));
     for (const double a : {1.0, 1e3, 1e6}) {
         SceneDescription d = floor_seen_at(0, 0.5);
@@ -106,7 +106,7 @@ TEST_CASE("D3: a large close rectangle has its form factor", "[hard]") {
     }
 }
 
-TEST_CASE("D4: a sphere that almost touches the floor", "[hard]") {
+TEST_CASE("D4: a sphere that almost touches the floor", "[hard][render]") {
     for (const double gap : {1e-2, 1e-3, 3e-4, 1e-4}) {
         SceneDescription d = empty_scene();
         add_shape(d, RectangleShape{}, scaled(1e3) * kUp, 0);
@@ -118,7 +118,7 @@ TEST_CASE("D4: a sphere that almost touches the floor", "[hard]") {
     }
 }
 
-TEST_CASE("D5: a light that touches the floor", "[hard]") {
+TEST_CASE("D5: a light that touches the floor", "[hard][render]") {
     for (const double x : {1.0, 0.1, 0.01, 1e-4}) {
         SceneDescription d = floor_seen_at(x, 0.5 * x, 1e-4);
         // Two by two metres, standing on the floor at x = 0, shining towards +x.
@@ -137,7 +137,7 @@ TEST_CASE("D5: a light that touches the floor", "[hard]") {
     check_mean(measure(d, 8192, 8), 0.5 / std::pow(1.01, 1.5), 5e-3);
 }
 
-TEST_CASE("D6: faces without area in a mesh light change nothing", "[hard]") {
+TEST_CASE("D6: faces without area in a mesh light change nothing", "[hard][render]") {
     SceneDescription d = floor_seen_at(0, 0.5);
     add_light(d,
               mesh({{-1, 1, -1}, {1, 1, -1}, {1, 1, 1}, {-1, 1, 1}, {0, 1, 0}, {-0.5f, 1, 0}, {0.5f, 1, 0}},
@@ -149,7 +149,7 @@ TEST_CASE("D6: faces without area in a mesh light change nothing", "[hard]") {
     CHECK_FALSE(compile_error(only).empty());
 }
 
-TEST_CASE("D10: radiance near the end of the range of float does not overflow in sums", "[hard]") {
+TEST_CASE("D10: radiance near the end of the range of float does not overflow in sums", "[hard][render]") {
     SceneDescription d = floor_seen_at(0, 0.5);
     add_light(d, RectangleShape{}, translated({0, 1, 0}) * kDown, Rgb(1e38f));
     const Measured m = measure(d, 1024, 8);
@@ -157,7 +157,7 @@ TEST_CASE("D10: radiance near the end of the range of float does not overflow in
     check_mean({m.mean / 1e38, m.standard_error / 1e38, m.replicates, m.invalid, 0, 0}, 0.277063211989786, 1e-3);
 }
 
-TEST_CASE("D11: without light it is dark, and under a constant sky alone it is the sky", "[hard]") {
+TEST_CASE("D11: without light it is dark, and under a constant sky alone it is the sky", "[hard][render]") {
     SceneDescription d = empty_scene();
     CHECK(measure(d, 16, 2).mean == 0.0);
     d.environment = ConstantEnvironment{};
@@ -167,7 +167,7 @@ TEST_CASE("D11: without light it is dark, and under a constant sky alone it is t
     CHECK(measure(d, 16, 2).mean == 0.0);
 }
 
-TEST_CASE("D12: a sphere that shines outwards is black from inside", "[hard]") {
+TEST_CASE("D12: a sphere that shines outwards is black from inside", "[hard][render]") {
     SceneDescription d = empty_scene();
     add_light(d, SphereShape{}, Matrix(1.0), Rgb(1.0f));
     CHECK(measure(d, 64, 2).mean == 0.0);
@@ -175,7 +175,7 @@ TEST_CASE("D12: a sphere that shines outwards is black from inside", "[hard]") {
     CHECK(measure(d, 64, 2).mean == 0.0);
 }
 
-TEST_CASE("D13: a point light close to the floor", "[hard]") {
+TEST_CASE("D13: a point light close to the floor", "[hard][render]") {
     for (const double h : {1e-2, 1e-3, 1e-4, 1e-5, 1e-6}) {
         SceneDescription d = empty_scene();
         add_shape(d, RectangleShape{}, kUp, 0);
@@ -188,7 +188,7 @@ TEST_CASE("D13: a point light close to the floor", "[hard]") {
 }
 
 // A convex combination of vertices a kilometre away is exact to 6e-5 m only: -14 % at 0.1 mm without refined_point().
-TEST_CASE("D13: a point light close to a floor of a kilometre", "[hard]") {
+TEST_CASE("D13: a point light close to a floor of a kilometre", "[hard][render]") {
     for (const double h : {1e-2, 1e-3, 1e-4}) {
         SceneDescription d = floor_seen_at(0, 10.0 * h, 1e-3);
         d.camera.near_clip = h;

@@ -278,7 +278,12 @@ TEST_CASE("integrators are path, direct, volpath, and moment around one of them"
     CHECK(moment.hide_emitters);
     CHECK(load("\"moment\"><integrator type=\"path\"/>").moments == "_arg_0");
     const auto error = [&](const std::string& text) { return files.error_of("<integrator type=" + text + "</integrator>"); };
-    CHECK_ERROR(error("\"direct\">" + integer("bsdf_samples", "0")), "'bsdf_samples' is 0", "more samples per pixel");
+    CHECK(load("\"direct\">").technique == Technique::both);
+    CHECK(load("\"direct\">" + integer("bsdf_samples", "0")).technique == Technique::light);
+    CHECK(load("\"direct\">" + integer("emitter_samples", "0")).technique == Technique::bsdf);
+    CHECK_ERROR(error("\"direct\">" + integer("bsdf_samples", "0") + integer("emitter_samples", "0")), "both 0");
+    CHECK_ERROR(error("\"direct\">" + integer("bsdf_samples", "2")), "'bsdf_samples' is 2", "more samples per pixel");
+    CHECK_ERROR(error("\"direct\">" + integer("shading_samples", "0")), "'shading_samples' is 0", "only 1");
     CHECK_ERROR(error("\"direct\">" + integer("max_depth", "3")), "'max_depth'", "shading_samples");
     CHECK_ERROR(error("\"moment\">"), "takes one integrator");
     CHECK_ERROR(error("\"ptracer\">"), "'ptracer'", "path, direct, volpath, moment");

@@ -61,6 +61,13 @@ void prefetch_vertices(const Scene& scene, Mask hit, Int32 geometry, Int32 primi
     }
 }
 
+inline Vec3<Float> normals_of_needles(const TrianglePack& t, Mask needle, const Vec3<Float>& otherwise) {
+    const VectorLanes v0(t.v0), v1(t.v1), v2(t.v2);
+    VectorLanes n(otherwise);
+    for_lanes(needle, [&](int i) { n.set(i, normal_of_needle(v0[i], v1[i], v2[i], n[i])); });
+    return n.pack();
+}
+
 /// @param word  first word of the geometries' records
 template <EffectSet kEffects>
 [[nodiscard]] SurfacePack triangle_surface_pack(const Scene& scene, const TrianglePack& t, Int32 word, Mask active, Vec2<Float> b) {
@@ -69,6 +76,7 @@ template <EffectSet kEffects>
     s.p = point.p;
     s.p_error = point.p_error;
     s.ng = s.n = point.ng;
+    if (const Mask needle = active & is_needle(t.v0, t.v1, t.v2); any(needle)) s.ng = s.n = normals_of_needles(t, needle, point.ng);
     if constexpr (kEffects.has(Effect::shading_normals))
         if (const Mask m = active & flag<2>(word); any(m)) {
             // Lanes without normals read entry 0, which is there when any mesh has normals.
@@ -146,7 +154,8 @@ template <EffectSet kEffects>
         const Int32 triangle = select(meshes, gather_int(records, offsetof(GeometryRecord, first), g) + primitive, Int32(0));
         const TrianglePack t = gather_triangle(scene, triangle);
         s = triangle_surface_pack<kEffects>(scene, t, word, meshes, barycentrics(t.v0, t.v1, t.v2, o, d));
-        if (const Mask coarse = meshes & is_coarse(s.p, s.p_error, o); any(coarse)) refine(t, o, d, coarse, s);
+        if (const Mask coarse = meshes & (is_coarse(s.p, s.p_error, o) | is_needle(t.v0, t.v1, t.v2)); any(coarse))
+            refine(t, o, d, coarse, s);
     }
     if constexpr (kEffects.has(Effect::analytic_shape))
         if (const Mask others = active & !meshes; any(others)) {

@@ -69,6 +69,7 @@ RenderPlan make_plan(const Scene& scene, const IntegratorSettings& settings) {
         for (const Effect e : kVolumetric) plan.effects = plan.effects.without(e);
     plan.integrator = settings;
     if (settings.max_depth < 0 || settings.max_depth - 1 >= std::max(settings.rr_depth, 1)) plan.effects |= {Effect::roulette};
+    if (settings.technique != Technique::both) plan.effects |= {Effect::one_technique};
     plan.layout = make_layout(plan.effects, settings);
     if (const Slot* lens = DimensionLayout::find(plan.layout.camera(), SlotRole::lens)) plan.lens = static_cast<std::int16_t>(lens->dimension);
     for (std::size_t b = 0; b < plan.layout.bounce_count(); ++b) {

@@ -29,13 +29,22 @@ struct NoObserver {
 /// After so many bounces in a row without any loss a path is played for.
 inline constexpr std::int32_t kLosslessBounces = 256;
 
+/// Weight of a sample that `own` could draw with density a and the other technique with density b.
+template <EffectSet kEffects>
+[[nodiscard]] float technique_weight(const IntegratorSettings& settings, Technique own, float a, float b) noexcept {
+    if constexpr (kEffects.has(Effect::one_technique))
+        if (settings.technique != Technique::both) return settings.technique == own ? 1.0f : 0.0f;
+    return power_heuristic(a, b);
+}
+
 /// The radiance along one camera sample: emission, next-event estimation and BSDF sampling combined by the power heuristic,
 /// Russian roulette without a cap.
 /// @param draws     with the path selected
 /// @return          linear RGB, W sr^-1 m^-2; a NaN if a ray could not be traced (the film counts and locates it)
 /// Source: Kajiya 1986, "The rendering equation"; Veach 1997, chapters 8 to 10. max_depth and rr_depth as in Mitsuba 3.
 template <EffectSet kEffects, class Observer>
-[[nodiscard]] Vec3f trace_path(const Scene& scene, const IntegratorSettings& settings, Draws& draws, RayCounts& rays, Observer& observer) noexcept {
+[[nodiscard]] Vec3f trace_path(const Scene& scene, const IntegratorSettings& settings, Draws& draws, RayCounts& rays,
+                               Observer& observer) noexcept {
     constexpr Vec3f kInvalid{std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::quiet_NaN(),
                              std::numeric_limits<float>::quiet_NaN()};
     constexpr bool kSmooth = kEffects.has(Effect::diffuse) || kEffects.has(Effect::glossy);
@@ -43,13 +52,13 @@ template <EffectSet kEffects, class Observer>
     constexpr bool kDelta = kEffects.has(Effect::specular) || kEffects.has(Effect::dielectric);
 
     Vec3f radiance{0.0f};
-    Vec3f beta{1.0f};              // f |cos| / pdf of the path so far
-    float eta_scale = 1.0f;        // square of the index that the path is in: what beta lost by compression, for roulette
-    float pdf_bsdf = 0.0f;         // of the last direction, per steradian
-    bool last_was_delta = true;    // light sampling could not have made the last direction
+    Vec3f beta{1.0f};            // f |cos| / pdf of the path so far
+    float eta_scale = 1.0f;      // square of the index that the path is in: what beta lost by compression, for roulette
+    float pdf_bsdf = 0.0f;       // of the last direction, per steradian
+    bool last_was_delta = true;  // light sampling could not have made the last direction
     Vec3f last_p{0.0f};
     [[maybe_unused]] Vec3f last_n{0.0f, 0.0f, 1.0f};  // at last_p, as lights were chosen there
-    [[maybe_unused]] std::int32_t lossless = 0;  // bounces in a row after which nothing was lost
+    [[maybe_unused]] std::int32_t lossless = 0;       // bounces in a row after which nothing was lost
 
     Vec2f u_lens;
     if constexpr (kEffects.has(Effect::lens)) u_lens = draws.lens();
@@ -75,7 +84,9 @@ template <EffectSet kEffects, class Observer>
                     const EnvironmentValue sky = environment_value(scene, ray.d);
                     float weight = 1.0f;
                     if (!last_was_delta)
-                        weight = power_heuristic(pdf_bsdf, sky.pdf_w * light_probability(static_cast<std::uint32_t>(scene.environment_light)));
+                        weight =
+                            technique_weight<kEffects>(settings, Technique::bsdf, pdf_bsdf,
+                                                       sky.pdf_w * light_probability(static_cast<std::uint32_t>(scene.environment_light)));
                     radiance += beta * sky.radiance * weight;
                     observer.escaped(ray.d, beta * sky.radiance * weight, weight);
                 }
@@ -94,8 +105,9 @@ template <EffectSet kEffects, class Observer>
                 if (!last_was_delta) {
                     const auto index = static_cast<std::uint32_t>(scene.geometries[surface.geometry].light);
                     const std::uint32_t triangle = chosen_triangle<kEffects>(scene, index, hit.primitive);
-                    weight = power_heuristic(pdf_bsdf, light_pdf<kEffects>(scene, scene.lights[index], last_p, surface, ray.d, triangle) *
-                                                           light_probability(index, triangle));
+                    weight = technique_weight<kEffects>(settings, Technique::bsdf, pdf_bsdf,
+                                                        light_pdf<kEffects>(scene, scene.lights[index], last_p, surface, ray.d, triangle) *
+                                                            light_probability(index, triangle));
                 }
                 radiance += beta * le * weight;
                 observer.emission(beta * le * weight, weight);
@@ -119,7 +131,8 @@ template <EffectSet kEffects, class Observer>
                 if (light.pdf_w > 0.0f && choice.probability > 0.0f) {
                     const BsdfValue value = eval_local<kEffects>(scene, local, wo_local, local.frame.to_local(light.wi));
                     const float pdf_light = light.pdf_w * choice.probability;
-                    const float weight = light.delta ? 1.0f : power_heuristic(pdf_light, value.pdf_w);
+                    const float weight =
+                        light.delta ? 1.0f : technique_weight<kEffects>(settings, Technique::light, pdf_light, value.pdf_w);
                     const Vec3f contribution = beta * value.f_cos * light.radiance * (weight / pdf_light);
                     if (!(sum(contribution) <= 0.0f)) {  // a NaN goes on, to be counted
                         Ray shadow;

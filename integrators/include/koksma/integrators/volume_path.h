@@ -80,9 +80,9 @@ template <EffectSet kEffects, class Observer>
                     const Vec3f le = environment_radiance<kEffects>(scene, ray.d);
                     float mis = 1.0f;
                     if (!last_was_delta)
-                        mis = power_heuristic(pdf_direction * weight.way,
-                                              environment_pdf<kEffects>(scene, ray.d) *
-                                                  light_probability(static_cast<std::uint32_t>(scene.environment_light)));
+                        mis = technique_weight<kEffects>(settings, Technique::bsdf, pdf_direction * weight.way,
+                                                         environment_pdf<kEffects>(scene, ray.d) *
+                                                             light_probability(static_cast<std::uint32_t>(scene.environment_light)));
                     radiance += weight.beta * le * mis;
                     observer.escaped(ray.d, weight.beta * le * mis, mis);
                 }
@@ -98,9 +98,9 @@ template <EffectSet kEffects, class Observer>
                 if (!last_was_delta) {
                     const auto index = static_cast<std::uint32_t>(scene.geometries[surface.geometry].light);
                     const std::uint32_t triangle = chosen_triangle<kEffects>(scene, index, hit.primitive);
-                    mis = power_heuristic(pdf_direction * weight.way,
-                                          light_pdf<kEffects>(scene, scene.lights[index], last_p, surface, ray.d, triangle) *
-                                              light_probability(index, triangle));
+                    mis = technique_weight<kEffects>(settings, Technique::bsdf, pdf_direction * weight.way,
+                                                     light_pdf<kEffects>(scene, scene.lights[index], last_p, surface, ray.d, triangle) *
+                                                         light_probability(index, triangle));
                 }
                 radiance += weight.beta * le * mis;
                 observer.emission(weight.beta * le * mis, mis);
@@ -154,7 +154,7 @@ template <EffectSet kEffects, class Observer>
                         if (stopped < 1.0f) value.pdf_w /= stopped;
                     }
                     const float pdf_light = light.pdf_w * choice.probability;
-                    float mis = light.delta ? 1.0f : power_heuristic(pdf_light, value.pdf_w);
+                    float mis = light.delta ? 1.0f : technique_weight<kEffects>(settings, Technique::light, pdf_light, value.pdf_w);
                     Vec3f contribution = beta_stopped * value.f_cos * light.radiance * (mis / pdf_light);
                     if (!(sum(contribution) <= 0.0f)) {  // a NaN goes on, to be counted
                         Ray shadow = ray;
@@ -168,7 +168,9 @@ template <EffectSet kEffects, class Observer>
                         const bool visible = !(sum(reached.transmittance) <= 0.0f);
                         if (visible && reached.way != 1.0f) {
                             // The other technique would have had to come through, too.
-                            mis = light.delta ? 1.0f : power_heuristic(pdf_light, value.pdf_w * reached.way);
+                            mis = light.delta
+                                      ? 1.0f
+                                      : technique_weight<kEffects>(settings, Technique::light, pdf_light, value.pdf_w * reached.way);
                             contribution = beta_stopped * value.f_cos * light.radiance * (mis / pdf_light);
                         }
                         if (visible) {

@@ -4,6 +4,9 @@
 #include <koksma/scene/scene.h>
 #include <koksma/scene/triangle.h>
 
+#include <algorithm>
+#include <limits>
+
 namespace koksma {
 
 struct Surface {
@@ -33,16 +36,45 @@ struct RefinedPoint {
     Vec3f p, p_error;
 };
 
-/// Where the ray meets the plane of a triangle, in double. @return  the point given, if that is no better
+/// The point of a triangle's border that is nearest to q.
+[[nodiscard]] inline Vec3d nearest_on_border(Vec3d v0, Vec3d v1, Vec3d v2, Vec3d q) noexcept {
+    const Vec3d corners[] = {v0, v1, v2};
+    Vec3d best = v0;
+    double least = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < 3; ++i) {
+        const Vec3d p = corners[i], edge = corners[(i + 1) % 3] - p;
+        const double e2 = dot(edge, edge), along = e2 > 0.0 ? dot(q - p, edge) / e2 : 0.0;
+        const Vec3d at = p + edge * (along > 0.0 ? (along < 1.0 ? along : 1.0) : 0.0), off = at - q;
+        if (dot(off, off) < least) {
+            least = dot(off, off);
+            best = at;
+        }
+    }
+    return best;
+}
+
+/// Where the ray meets the plane of a triangle, in double; the nearest point of the triangle where that is beyond it by more than Embree's own
+/// rounding, as with slivers of which Embree says that a ray nearly in their plane hits them while it passes by.
+/// @return  the point given, where the ray lies in the plane
 [[nodiscard]] inline RefinedPoint refined_point(Vec3f v0, Vec3f v1, Vec3f v2, Vec3f o, Vec3f d, RefinedPoint coarse) noexcept {
-    const Vec3d a = to_double(v0) - to_double(o), n = cross(to_double(v1) - to_double(v0), to_double(v2) - to_double(v0)), direction = to_double(d);
-    const double dn = dot(direction, n);
-    const double t = dot(a, n) / dn;
-    const double t_error = 0x1p-50 * dot(abs(a), abs(n)) / std::fabs(dn);  // 8 roundings
-    const Vec3f p = to_float(to_double(o) + direction * t);
-    const Vec3f p_error = abs(p) * error_gamma(1) + to_float(abs(direction) * t_error);
-    if (!(max_component(p_error) < max_component(coarse.p_error))) return coarse;  // also where the ray lies in the plane
-    return {p, p_error};
+    const Vec3d origin = to_double(o), a = to_double(v0) - origin, b = to_double(v1) - origin, c = to_double(v2) - origin, direction = to_double(d);
+    const double w0 = dot(direction, cross(c, b)), w1 = dot(direction, cross(a, c)), w2 = dot(direction, cross(b, a)), sum = w0 + w1 + w2;
+    if (sum == 0.0) return coarse;
+    Vec3d q = (a * w0 + b * w1 + c * w2) * (1.0 / sum);
+    if (!(w0 * sum >= 0.0 && w1 * sum >= 0.0 && w2 * sum >= 0.0)) {
+        const Vec3d inside = nearest_on_border(a, b, c, q);
+        const double rounding = double{error_gamma(16)} * std::sqrt(std::max({dot(a, a), dot(b, b), dot(c, c)})) + max_component(coarse.p_error);
+        if (!(length(q - inside) <= rounding)) q = inside;
+    }
+    const Vec3f p = to_float(origin + q);
+    return {p, abs(p) * error_gamma(2)};  // computed in double: the rounding to float is what is left
+}
+
+/// The normal of a needle, in double. @return  `otherwise` where the triangle has no area
+[[nodiscard]] inline Vec3f normal_of_needle(Vec3f v0, Vec3f v1, Vec3f v2, Vec3f otherwise) noexcept {
+    const Vec3d n = cross(to_double(v1) - to_double(v0), to_double(v2) - to_double(v0));
+    const double len2 = dot(n, n);
+    return len2 > 0.0 ? to_float(n * (1.0 / std::sqrt(len2))) : otherwise;
 }
 
 /// A point of a triangle by the barycentrics of its second and third vertex.
@@ -57,7 +89,7 @@ template <EffectSet kEffects>
     s.primitive = triangle - g.first;
     s.p = point.p;
     s.p_error = point.p_error;
-    s.ng = s.n = point.ng;
+    s.ng = s.n = is_needle(v0, v1, v2) ? normal_of_needle(v0, v1, v2, point.ng) : point.ng;
     if constexpr (kEffects.has(Effect::shading_normals))
         if (g.has_normals) s.n = interpolated_normal(scene.normals[index[0]], scene.normals[index[1]], scene.normals[index[2]], point.b0, b, s.ng);
     if (g.flip) {
@@ -160,7 +192,7 @@ template <EffectSet kEffects>
     const auto& index = scene.triangles[triangle];
     const Vec3f v0 = scene.positions[index[0]], v1 = scene.positions[index[1]], v2 = scene.positions[index[2]];
     Surface s = triangle_surface<kEffects>(scene, hit.geometry, triangle, barycentrics(v0, v1, v2, ray.o, ray.d));
-    if (is_coarse(s.p, s.p_error, ray.o)) {
+    if (is_coarse(s.p, s.p_error, ray.o) || is_needle(v0, v1, v2)) {
         const RefinedPoint r = refined_point(v0, v1, v2, ray.o, ray.d, {s.p, s.p_error});
         s.p = r.p;
         s.p_error = r.p_error;

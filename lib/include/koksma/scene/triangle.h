@@ -55,6 +55,16 @@ template <class Real>
             select<Real>(regular, unit, Vec3<Real>{Real(0.0f), Real(0.0f), Real(1.0f)}), b0};
 }
 
+/// True where the sine of the angle at the first vertex is below 1/16: edges nearly cancel in the normal, and volumes in the barycentrics,
+/// which slide the point along the needle. Double is needed for both.
+template <class Real>
+[[nodiscard]] MaskOf<Real> is_needle(Vec3<Real> v0, Vec3<Real> v1, Vec3<Real> v2) noexcept {
+    const Vec3<Real> e1 = v1 - v0, e2 = v2 - v0;
+    const Real scale = Real(1.0f) / max_component(Vec3<Real>{max_component(abs(e1)), max_component(abs(e2)), Real(1e-30f)});
+    const Vec3<Real> s1 = e1 * scale, s2 = e2 * scale, n = cross(s1, s2);
+    return dot(n, n) < dot(s1, s1) * dot(s2, s2) * Real(0x1p-8f);
+}
+
 /// True where a point between vertices is too coarse for the ray that found it: its error exceeds 2^-12 of the way. So it is
 /// on a triangle thousands of times as large as the way, where also Embree's choice between two neighbours is that coarse.
 template <class Real>

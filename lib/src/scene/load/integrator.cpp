@@ -10,13 +10,22 @@ namespace {
 
 constexpr std::int64_t kMax = std::numeric_limits<std::int32_t>::max();
 
-/// Paths of one reflection are the direct light: one sample of a light and one of the BSDF, by the power heuristic, as in Mitsuba.
+/// Paths of one reflection are the direct light: one sample of a light and one of the BSDF, by the power heuristic, as in Mitsuba, or one
+/// of the two.
 void read_direct(Properties& p, IntegratorSettings& settings) {
     if (p.has("shading_samples") && (p.has("emitter_samples") || p.has("bsdf_samples")))
         fail(p.where("shading_samples"), "give 'shading_samples', or 'emitter_samples' and 'bsdf_samples', not both");
-    for (const char* name : {"shading_samples", "emitter_samples", "bsdf_samples"})
-        if (const auto n = p.integer(name, 1, 0, kMax); n != 1)
-            fail(p.where(name), "'{}' is {}; only 1 is supported: take more samples per pixel instead", name, n);
+    const auto count = [&](const char* name, std::int64_t least) {
+        const auto n = p.integer(name, 1, 0, kMax);
+        if (n < least || n > 1)
+            fail(p.where(name), "'{}' is {}; only {} is supported: take more samples per pixel instead", name, n,
+                 least == 1 ? "1" : "0 or 1");
+        return n;
+    };
+    count("shading_samples", 1);
+    const auto lights = count("emitter_samples", 0), bsdfs = count("bsdf_samples", 0);
+    if (lights + bsdfs == 0) fail(p.where("bsdf_samples"), "'emitter_samples' and 'bsdf_samples' are both 0; one of them must be 1");
+    settings.technique = lights == 0 ? Technique::bsdf : bsdfs == 0 ? Technique::light : Technique::both;
     settings.max_depth = 2;
     settings.rr_depth = static_cast<std::int32_t>(kMax);  // no roulette
 }
