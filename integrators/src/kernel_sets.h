@@ -15,14 +15,19 @@ inline constexpr EffectSet kSpecularEffects =
 /// The batch kernel looks up textures by (u, v) alone.
 inline constexpr EffectSet kBatchAllEffects = EffectSet::all().without(Effect::mesh_attribute);
 
+/// All but what moves or is seen through instances, whose code is in the way of every hit.
+inline constexpr EffectSet kStillEffects = kBatchAllEffects.without(Effect::instancing).without(Effect::motion);
+
 // One function a variant, one source file each, so that they compile in parallel.
 std::unique_ptr<Tracer> make_reference_diffuse(const TraceJob& job);
 std::unique_ptr<Tracer> make_reference_specular(const TraceJob& job);
 std::unique_ptr<Tracer> make_reference_diffuse_textured(const TraceJob& job);
+std::unique_ptr<Tracer> make_reference_still(const TraceJob& job);
 std::unique_ptr<Tracer> make_reference_all(const TraceJob& job);
 std::unique_ptr<Tracer> make_batch_diffuse(const TraceJob& job);
 std::unique_ptr<Tracer> make_batch_specular(const TraceJob& job);
 std::unique_ptr<Tracer> make_batch_diffuse_textured(const TraceJob& job);
+std::unique_ptr<Tracer> make_batch_still(const TraceJob& job);
 std::unique_ptr<Tracer> make_batch_all(const TraceJob& job);
 
 }  // namespace koksma::detail

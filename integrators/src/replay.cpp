@@ -19,13 +19,17 @@ public:
     explicit Teller(const Scene& scene) : scene_(scene) {}
 
     void camera(const Ray& ray) {
-        line("camera      origin {} direction {} t in [{:.9g}, {:.9g}]", text(ray.o), text(ray.d), ray.t_near, ray.t_far);
+        line("camera      origin {} direction {} t in [{:.9g}, {:.9g}] time {:.9g}", text(ray.o), text(ray.d), ray.t_near, ray.t_far,
+             ray.time);
     }
     void met(const Ray&, Hit) {}
     void shadow(const Ray&, bool) {}
     void vertex(const Surface& s, Hit hit, Vec3f wo, Vec3f beta) {
-        const Shape& shape = scene_.description.shapes[hit.geometry];
-        line("vertex {:<4} geometry {} ({}) primitive {}", vertex_++, hit.geometry, shape.where.text(), hit.primitive);
+        const Shape& shape = shape_of(scene_.description, hit.geometry);
+        line("vertex {:<4} geometry {} ({}) primitive {}{}", vertex_++, hit.geometry, shape.where.text(), hit.primitive,
+             hit.instance == Hit::kNone
+                 ? std::string()
+                 : fmt::format(" through instance {} ({})", hit.instance, scene_.description.instances[hit.instance].where.text()));
         line("            p {} +- {}", text(s.p), text(s.p_error));
         line("            ng {} n {} uv ({:.9g}, {:.9g}) cos(wo) {:.9g}", text(s.ng), text(s.n), s.uv.x, s.uv.y, dot(wo, s.n));
         line("            beta {}", text(beta));

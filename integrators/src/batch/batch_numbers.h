@@ -33,6 +33,7 @@ public:
         if (plan_.lens < 0) return {};  // a kernel with a lens, a scene without
         return {row(plan_.lens, at), row(plan_.lens + 1, at)};
     }
+    [[nodiscard]] Float time(std::size_t at) const { return plan_.time < 0 ? Float(0.0f) : row(plan_.time, at); }
     /// @param at      place of the pack in the queue
     /// @param active  lanes that draw the number
     [[nodiscard]] Float get_1d(std::size_t at, Mask active, SlotRole role, std::int16_t BounceSlots::*member) {

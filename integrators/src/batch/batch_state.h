@@ -28,6 +28,7 @@ struct alignas(64) VectorRows {
 struct alignas(64) PathQueue {
     VectorRows o, d;             ///< the next ray
     FloatRow t_near, t_far;      ///< of camera rays; later ones go from 0 to infinity
+    FloatRow time;               ///< within the shutter's interval; only where something moves
     VectorRows beta;             ///< f |cos| / pdf of the path so far
     FloatRow eta_scale;          ///< square of the index that the path is in
     VectorRows last_p;           ///< where the last direction was sampled,
@@ -42,7 +43,7 @@ struct alignas(64) PathQueue {
 /// Shadow rays of one bounce, with what they bring if nothing is in the way.
 struct alignas(64) ShadowQueue {
     VectorRows o, d;
-    FloatRow t_far;
+    FloatRow t_far, time;
     VectorRows contribution;
     IntRow slot;
 };

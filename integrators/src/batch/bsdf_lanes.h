@@ -11,14 +11,21 @@ template <EffectSet kEffects>
 /// Calls f(lane, point) for layered lanes.
 template <class F>
 void for_layered(const LocalBsdfPack& local, Mask layered, F&& f) {
-    alignas(4 * kLanes) IntLanes side, geometry, primitive;
+    alignas(4 * kLanes) IntLanes side, geometry, primitive, instance;
     local.side.store(side);
     local.geometry.store(geometry);
     local.primitive.store(primitive);
-    const NumberLanes u(local.uv.x), v(local.uv.y);
+    local.instance.store(instance);
+    const NumberLanes u(local.uv.x), v(local.uv.y), time(local.time);
     const VectorLanes n(local.n);
     for_lanes(layered, [&](int i) {
-        f(i, LayeredPoint{static_cast<std::uint32_t>(side[i]), {u.x[i], v.x[i]}, n[i], static_cast<std::uint32_t>(geometry[i]), static_cast<std::uint32_t>(primitive[i])});
+        f(i, LayeredPoint{static_cast<std::uint32_t>(side[i]),
+                          {u.x[i], v.x[i]},
+                          n[i],
+                          static_cast<std::uint32_t>(geometry[i]),
+                          static_cast<std::uint32_t>(primitive[i]),
+                          static_cast<std::uint32_t>(instance[i]),
+                          time.x[i]});
     });
 }
 

@@ -12,7 +12,7 @@ public:
 
     explicit RayOrder(const Scene& scene) {
         const std::size_t primitives = scene.triangles.size() + scene.spheres.size() + scene.disks.size();
-        if (primitives > kPrimitiveLimit) return;
+        if (primitives > kPrimitiveLimit || !scene.instances.empty()) return;  // groups have spaces of their own
         usable_ = true;
         Vec3f low(kInfinity), high(-kInfinity);
         const auto grow = [&](Vec3f p) {

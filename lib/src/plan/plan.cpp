@@ -30,6 +30,7 @@ DimensionLayout make_layout(EffectSet effects, const IntegratorSettings& setting
     DimensionLayout layout;
     layout.add_camera(SlotRole::film, 2);
     if (effects.has(Effect::lens)) layout.add_camera(SlotRole::lens, 2);
+    if (effects.has(Effect::motion)) layout.add_camera(SlotRole::time, 1);
     const bool smooth = effects.has(Effect::diffuse) || effects.has(Effect::glossy);
     const bool light_has_extent = effects.has(Effect::area_light) || effects.has(Effect::environment);
     for (std::int32_t b = 0; b < bounce_limit(settings); ++b) {
@@ -52,6 +53,7 @@ RenderPlan make_plan(const Scene& scene, const IntegratorSettings& settings) {
     if (settings.max_depth < 0 || settings.max_depth - 1 >= std::max(settings.rr_depth, 1)) plan.effects |= {Effect::roulette};
     plan.layout = make_layout(plan.effects, settings);
     if (const Slot* lens = DimensionLayout::find(plan.layout.camera(), SlotRole::lens)) plan.lens = static_cast<std::int16_t>(lens->dimension);
+    if (const Slot* time = DimensionLayout::find(plan.layout.camera(), SlotRole::time)) plan.time = static_cast<std::int16_t>(time->dimension);
     for (std::size_t b = 0; b < plan.layout.bounce_count(); ++b) {
         const SlotRun run = plan.layout.bounce(b);
         plan.bounces.push_back(run.empty() ? BounceSlots{} : offsets(run));

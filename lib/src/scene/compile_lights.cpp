@@ -85,19 +85,6 @@ double make_surface_light(const Scene& scene, const Shape& shape, std::size_t ge
     return area;
 }
 
-float bounding_radius(const Scene& scene) {
-    double r2 = 0.0;
-    const auto grow = [&](Vec3d p, double radius) {
-        const double d = length(p) + radius;
-        if (d * d > r2) r2 = d * d;
-    };
-    for (std::size_t i = 0; i + 1 < scene.positions.size(); ++i) grow(to_double(scene.positions[i]), 0.0);
-    for (const AnalyticSphere& s : scene.spheres) grow(s.center, s.radius);
-    for (const AnalyticDisk& d : scene.disks) grow(d.center, length(d.s) + length(d.t));
-    for (const AnalyticCylinder& c : scene.cylinders) grow(c.base, c.radius), grow(c.base + c.axis, c.radius);
-    return r2 > 0.0 ? static_cast<float>(std::sqrt(r2)) : 1.0f;
-}
-
 /// Lights, of meshes triangles, from which on a tree chooses (docs/design.md, "Many lights", has the measurement).
 constexpr std::size_t kManyLights = 16;
 
@@ -200,7 +187,6 @@ struct DeltaLightCompiler {
 
 void compile_lights(Scene& scene, glm::dvec3 origin) {
     const SceneDescription& d = scene.description;
-    scene.bounding_radius = bounding_radius(scene);
     std::vector<double> powers, radiances;
 
     for (std::size_t i = 0; i < d.shapes.size(); ++i) {

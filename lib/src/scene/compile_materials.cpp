@@ -225,13 +225,16 @@ void check_attributes(const Scene& scene, std::uint32_t material, std::size_t fi
     for (std::size_t t = first_texture; t < scene.textures.size(); ++t) {
         const auto* wanted = std::get_if<MeshAttributeTexture>(&scene.textures[t]);
         if (!wanted) continue;
-        for (const Shape& s : scene.description.shapes) {
-            if (s.material != material) continue;
+        const auto check = [&](const Shape& s) {
+            if (s.material != material) return;
             const auto* mesh = std::get_if<MeshShape>(&s.geometry);
             const auto has = [&](const MeshAttribute& a) { return a.name == wanted->name; };
             if (!mesh || std::none_of(mesh->data->attributes.begin(), mesh->data->attributes.end(), has))
                 throw Error(s.where.text() + ": the material of this shape looks up the attribute '" + wanted->name + "', which the shape does not have");
-        }
+        };
+        for (const Shape& s : scene.description.shapes) check(s);
+        for (const ShapeGroup& g : scene.description.groups)
+            for (const Shape& s : g.shapes) check(s);
     }
 }
 
@@ -243,6 +246,8 @@ void compile_materials(Scene& scene) {
     // A material that no shape uses costs nothing: it calls for no effect.
     std::vector<bool> used(d.materials.size(), false);
     for (const Shape& s : d.shapes) used[s.material] = true;
+    for (const ShapeGroup& g : d.groups)
+        for (const Shape& s : g.shapes) used[s.material] = true;
     for (std::size_t i = 0; i < d.materials.size(); ++i) {
         const Material& m = d.materials[i];
         MaterialSides sides;

@@ -115,6 +115,11 @@ struct Tangents {
         du = s * phi.cos + t * phi.sin;
         dv = (t * phi.cos - s * phi.sin) * (2.0f * kPi * at.uv.x);
     }
+    if (at.instance != Hit::kNone) {
+        const Placement m = transfer_at<kAll>(scene, scene.instances[at.instance], at.time).to_scene;
+        du = to_float(vector_by(m, to_double(du)));
+        dv = to_float(vector_by(m, to_double(dv)));
+    }
     const Frame frame = frame_along(at.n, du);
     return {frame.to_local(du), frame.to_local(dv)};
 }

@@ -30,14 +30,17 @@ enum class Effect : std::uint8_t {
     mesh_attribute,   ///< textures that look up values of vertices and faces
     lobe,             ///< BSDFs that choose among lobes: a 1-D draw per bounce
     layered,          ///< materials of several lobes or parts (koksma/scene/bsdf/layered.h), computed one path at a time
+    instancing,       ///< groups of shapes that are seen through instances
+    motion,           ///< instances that move while the shutter is open: a 1-D draw per camera ray
 };
-inline constexpr int kEffectCount = 20;
+inline constexpr int kEffectCount = 22;
 
 [[nodiscard]] constexpr std::string_view name(Effect e) noexcept {
     constexpr std::string_view kNames[kEffectCount] = {"lens",       "light_choice", "area_light", "sphere_light",   "point_light",
                                                        "environment", "diffuse",      "glossy",     "specular",       "dielectric",
                                                        "two_sided",  "texture",      "analytic_shape", "shading_normals", "anisotropic",
-                                                       "roulette",   "many_lights",  "mesh_attribute", "lobe",          "layered"};
+                                                       "roulette",   "many_lights",  "mesh_attribute", "lobe",          "layered",
+                                                       "instancing", "motion"};
     return kNames[static_cast<int>(e)];
 }
 

@@ -20,7 +20,7 @@ struct RenderPlan {
     EffectSet effects;               ///< of the scene under these settings; decides the layout
     IntegratorSettings integrator;
     DimensionLayout layout;
-    std::int16_t lens = -1;          ///< offset in the camera's run; film is at 0
+    std::int16_t lens = -1, time = -1;  ///< offsets in the camera's run; film is at 0
     std::vector<BounceSlots> bounces;
 };
 

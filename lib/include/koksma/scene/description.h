@@ -157,6 +157,17 @@ struct Material {
     SourceLocation where;
 };
 
+// ------------------------------------------------------------------------------------------------ motion
+
+/// Where something is at an instant, in the time of the camera's shutter.
+struct Keyframe {
+    double time = 0.0;
+    glm::dmat4 to_world{1.0};
+};
+/// Placements in order of time; empty: at rest. In between, translation and stretch change linearly and the rotation takes the shortest
+/// way at a constant rate; before the first and after the last nothing moves (koksma/scene/animation.h).
+using Animation = std::vector<Keyframe>;
+
 // ------------------------------------------------------------------------------------------------ shapes
 
 /// Colours, or numbers as greys, of vertices or faces.
@@ -202,10 +213,25 @@ struct Shape {
     std::string id;
     Geometry geometry;
     glm::dmat4 to_world{1.0};
+    Animation animation{};  ///< instead of to_world
     bool flip_normals = false;
     bool face_normals = false;
     std::uint32_t material = 0;  ///< index into SceneDescription::materials
     std::optional<AreaEmission> emission;
+    SourceLocation where;
+};
+
+/// Shapes that are seen through instances alone; none of them emits or moves on its own.
+struct ShapeGroup {
+    std::string id;
+    std::vector<Shape> shapes;
+    SourceLocation where;
+};
+/// A group shown somewhere.
+struct Instance {
+    std::uint32_t group = 0;  ///< index into SceneDescription::groups
+    glm::dmat4 to_world{1.0};
+    Animation animation{};  ///< instead of to_world
     SourceLocation where;
 };
 
@@ -266,6 +292,7 @@ struct Camera {
     double aperture_radius = 0.0;              ///< 0: pinhole
     double focus_distance = 1e4;               ///< distance along z of the plane in focus
     glm::dvec2 principal_point_offset{0.0};    ///< in fractions of the full film: film position (x, y) sees what (x, y) + offset saw without it
+    double shutter_open = 0.0, shutter_close = 0.0;  ///< instants; equal: everything stands where it is then
     SourceLocation where;
 };
 
@@ -298,6 +325,8 @@ struct SceneDescription {
     std::string file;
     std::vector<Material> materials;  ///< [0] is the default diffuse of reflectance 0.5
     std::vector<Shape> shapes;
+    std::vector<ShapeGroup> groups;
+    std::vector<Instance> instances;
     std::vector<PointLight> point_lights;
     std::vector<DeltaLight> delta_lights;
     std::optional<Environment> environment;

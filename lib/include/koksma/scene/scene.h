@@ -10,6 +10,7 @@
 #include <koksma/scene/distribution.h>
 #include <koksma/scene/environment_map.h>
 #include <koksma/scene/light_tree.h>
+#include <koksma/scene/placement.h>
 #include <koksma/scene/texture.h>
 
 #include <memory>
@@ -44,7 +45,7 @@ struct AttributeSlot {
     float scale = 1.0f;
 };
 
-/// One per Embree geometry.
+/// One per shape: those of the description, then those of its groups.
 struct GeometryRecord {
     GeometryKind kind = GeometryKind::mesh;
     bool flip = false;         ///< normals point the other way
@@ -52,6 +53,21 @@ struct GeometryRecord {
     std::uint32_t first = 0;   ///< mesh: its first entry in Scene::triangles; otherwise the index in spheres or disks
     std::uint32_t material = 0;
     std::int32_t light = -1;   ///< index into Scene::lights
+};
+
+/// Geometries in a space of their own.
+struct GroupRecord {
+    std::uint32_t first_geometry = 0, geometry_count = 0;
+    Vec3d origin;         ///< of its own space, in that of the description: the middle of the shapes
+    double radius = 0.0;  ///< of a ball about the own origin that holds them
+};
+
+/// A group seen somewhere. It moves if it has more than one placement.
+struct InstanceRecord {
+    std::uint32_t first_geometry = 0;                        ///< the group's
+    std::uint32_t first_placement = 0, placement_count = 1;  ///< in Scene::placements, at equal distances in the time of the shutter
+    Placement to_own;                                        ///< inverse of the placement, at rest
+    PlacementError error;                                    ///< at all times
 };
 
 enum class LightKind : std::int32_t { mesh, parallelogram, sphere, disk, point, environment, cylinder, spot, projector, directional };
@@ -92,6 +108,10 @@ struct Scene {
     std::vector<MaterialSides> materials;
 
     std::vector<GeometryRecord> geometries;
+    std::vector<GroupRecord> groups;
+    std::vector<InstanceRecord> instances;
+    std::uint32_t first_instance = 0;   ///< its id in the accelerator
+    std::vector<Placement> placements;  ///< own space of a group to the scene's; entries are floats
     std::vector<Vec3f> positions, normals;
     std::vector<glm::vec2> uvs;
     std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices into positions, normals and uvs alike
@@ -110,6 +130,9 @@ struct Scene {
     std::optional<EnvironmentMap> environment_map;
     float bounding_radius = 1.0f;
 };
+
+/// The shape of an entry of Scene::geometries.
+[[nodiscard]] const Shape& shape_of(const SceneDescription& compiled, std::uint32_t geometry) noexcept;
 
 /// Checks, re-centres, flattens and builds the BVH.
 /// @throws Error "file:line:column: ..." for what cannot be rendered

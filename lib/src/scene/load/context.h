@@ -35,6 +35,7 @@ struct Context {
     std::map<std::string, MeshFile> meshes;
     std::map<std::pair<std::string, bool>, std::shared_ptr<const Image>> images;  ///< by file and `raw`
     std::set<const Element*> attached_emitters;
+    std::map<const Element*, std::uint32_t> groups;  ///< shapegroup elements already in scene.groups
 };
 
 }  // namespace koksma::loader

@@ -42,6 +42,7 @@ void check_unused(const XmlDocument& document, Context& context) {
     for (const Element& e : document.elements) {
         if (e.tag == "bsdf" && !context.materials.contains(&e)) (void)parse_material(e, context);
         if (e.tag == "texture") (void)parse_texture(e, ColorUse::any, context);
+        if (e.tag == "shape" && e.required("type") == "shapegroup" && !context.groups.contains(&e)) (void)parse_group(e, context);
         if (e.tag == "emitter" && e.required("type") == "area" && !context.attached_emitters.contains(&e))
             fail(e.where, "this area emitter is not attached to a shape; put it, or a <ref> to it, in a <shape>");
     }
@@ -58,7 +59,7 @@ SceneDescription load_scene(const std::filesystem::path& file, const SceneParame
     scene.materials.emplace_back();
     read_header_comment(document.comment, scene);
 
-    Context context{scene, {}, document.search, {}, {}, {}, {}, {}};
+    Context context{scene, {}, document.search, {}, {}, {}, {}, {}, {}};
     check_tags(document);
     collect_ids(document.elements, context.ids);
     if (const Element* integrator = only(document, "integrator")) read_integrator(*integrator, context);

@@ -52,6 +52,11 @@ public:
         // What came later is in the hash only where it is used, so that the hash of an older scene stays.
         for (const DeltaLight& l : scene_.delta_lights) h_.word(0x64656C7461u + l.index()), std::visit([this](const auto& e) { add(e); }, l);
         if (!scene_.film.filter.is_pixel()) add(scene_.film.filter);
+        for (const ShapeGroup& g : scene_.groups) {
+            h_.word(0x67726F7570u), h_.word(g.shapes.size());
+            for (const Shape& s : g.shapes) add(s);
+        }
+        for (const Instance& i : scene_.instances) h_.word(0x696E7374u), h_.word(i.group), h_.matrix<4>(i.to_world), add(i.animation);
         add(scene_.camera);
         h_.word(static_cast<std::uint64_t>(scene_.film.width)), h_.word(static_cast<std::uint64_t>(scene_.film.height));
         h_.word(static_cast<std::uint64_t>(std::int64_t{scene_.integrator.max_depth}));
@@ -68,6 +73,12 @@ private:
         add(scene_.materials.at(s.material));
         h_.word(s.emission.has_value());
         if (s.emission) add(s.emission->radiance);
+        add(s.animation);
+    }
+    void add(const Animation& animation) {
+        if (animation.empty()) return;
+        h_.word(animation.size()), h_.number(scene_.camera.shutter_open), h_.number(scene_.camera.shutter_close);
+        for (const Keyframe& k : animation) h_.number(k.time), h_.matrix<4>(k.to_world);
     }
     void add(const RectangleShape&) {}
     void add(const DiskShape&) {}
