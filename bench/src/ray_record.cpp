@@ -11,10 +11,13 @@ namespace koksma {
 
 /// Watches a path for its rays.
 struct RayRecorder : NoObserver {
+    const Scene& scene;
     RayRecord& record;
-    explicit RayRecorder(RayRecord& r) : record(r) {}
+    RayRecorder(const Scene& s, RayRecord& r) : scene(s), record(r) {}
     void met(const Ray& ray, Hit hit) {
         record.add(ray, false);
+        // What the accelerator says, without what closest_hit() makes of it.
+        if (hit.instance != Hit::kNone) hit.geometry -= scene.instances[hit.instance].first_geometry;
         record.answers_.met(hit);
     }
     void shadow(const Ray& ray, bool visible) {
@@ -23,12 +26,15 @@ struct RayRecorder : NoObserver {
     }
 };
 
-RayRecord::RayRecord(const Scene& scene, const RenderPlan& plan, const SampleSource& source, const WorkItem& work, std::uint64_t most_bytes) {
+RayRecord::RayRecord(const Scene& scene, const RenderPlan& plan, const SampleSource& source, const WorkItem& work,
+                     std::uint64_t most_bytes) {
     constexpr std::int32_t kTile = 8;
+    if (plan.effects.has(Effect::medium) || plan.effects.has(Effect::null_boundary))
+        throw Error("rays of paths through media cannot be recorded");
     const FlushDenormals flush;
     Draws draws(plan, source);
     std::vector<SampleId> ids;
-    RayRecorder recorder(*this);
+    RayRecorder recorder(scene, *this);
     const PixelRect r = work.rect;
     const std::uint64_t end = work.first + work.count;
     for (std::int32_t tile_y = r.y; tile_y < r.y + r.height; tile_y += kTile)
@@ -37,15 +43,16 @@ RayRecord::RayRecord(const Scene& scene, const RenderPlan& plan, const SampleSou
                 for (std::int32_t y = tile_y; y < std::min(tile_y + kTile, r.y + r.height); ++y)
                     for (std::int32_t x = tile_x; x < std::min(tile_x + kTile, r.x + r.width); ++x) {
                         ids.clear();
-                        for (std::uint64_t i = at; i < std::min(end, (at / Film::kChunk + 1) * Film::kChunk); ++i) ids.push_back({{x, y}, i});
+                        for (std::uint64_t i = at; i < std::min(end, (at / Film::kChunk + 1) * Film::kChunk); ++i)
+                            ids.push_back({{x, y}, i});
                         draws.begin(ids, false);
                         for (std::size_t i = 0; i < ids.size(); ++i) {
                             draws.select(i);
                             static_cast<void>(trace_path<EffectSet::all()>(scene, plan.integrator, draws, rays_, recorder));
                         }
                         if (blocks_.size() * sizeof(Block) > most_bytes)
-                            throw Error(fmt::format("the rays of {} paths need more than {} GB; lower --spp or use --crop", work.count * static_cast<std::uint64_t>(r.area()),
-                                                    most_bytes >> 30));
+                            throw Error(fmt::format("the rays of {} paths need more than {} GB; lower --spp or use --crop",
+                                                    work.count * static_cast<std::uint64_t>(r.area()), most_bytes >> 30));
                     }
 }
 
@@ -91,10 +98,14 @@ void PacketRecord::add(const PacketQuery& q, std::uint64_t most_bytes) {
 
 double PacketRecord::replay(const Accelerator& accelerator, Answers& answers) const {
     switch (width_) {
-        case 4: return replay_width<4>(accelerator, answers);
-        case 8: return replay_width<8>(accelerator, answers);
-        case 16: return replay_width<16>(accelerator, answers);
-        default: throw Error(fmt::format("packets of {} rays cannot be replayed", width_));
+        case 4:
+            return replay_width<4>(accelerator, answers);
+        case 8:
+            return replay_width<8>(accelerator, answers);
+        case 16:
+            return replay_width<16>(accelerator, answers);
+        default:
+            throw Error(fmt::format("packets of {} rays cannot be replayed", width_));
     }
 }
 

@@ -19,13 +19,17 @@ public:
     explicit Teller(const Scene& scene) : scene_(scene) {}
 
     void camera(const Ray& ray) {
-        line("camera      origin {} direction {} t in [{:.9g}, {:.9g}]", text(ray.o), text(ray.d), ray.t_near, ray.t_far);
+        line("camera      origin {} direction {} t in [{:.9g}, {:.9g}] time {:.9g}", text(ray.o), text(ray.d), ray.t_near, ray.t_far,
+             ray.time);
     }
     void met(const Ray&, Hit) {}
     void shadow(const Ray&, bool) {}
     void vertex(const Surface& s, Hit hit, Vec3f wo, Vec3f beta) {
-        const Shape& shape = scene_.description.shapes[hit.geometry];
-        line("vertex {:<4} geometry {} ({}) primitive {}", vertex_++, hit.geometry, shape.where.text(), hit.primitive);
+        const Shape& shape = shape_of(scene_.description, hit.geometry);
+        line("vertex {:<4} geometry {} ({}) primitive {}{}", vertex_++, hit.geometry, shape.where.text(), hit.primitive,
+             hit.instance == Hit::kNone
+                 ? std::string()
+                 : fmt::format(" through instance {} ({})", hit.instance, scene_.description.instances[hit.instance].where.text()));
         line("            p {} +- {}", text(s.p), text(s.p_error));
         line("            ng {} n {} uv ({:.9g}, {:.9g}) cos(wo) {:.9g}", text(s.ng), text(s.n), s.uv.x, s.uv.y, dot(wo, s.n));
         line("            beta {}", text(beta));
@@ -41,11 +45,12 @@ public:
     }
     void emission(Vec3f contribution, float weight) { line("  emission  MIS weight {:.9g} adds {}", weight, text(contribution)); }
     void direct_light(std::uint32_t light, const LightSample& s, Vec3f contribution, float weight, bool visible) {
-        line("  light     #{} wi {} pdf {:.9g} /sr{} MIS weight {:.9g} {} {}", light, text(s.wi), s.pdf_w, s.delta ? " (delta)" : "", weight,
-             visible ? "adds" : "is hidden, would add", text(contribution));
+        line("  light     #{} wi {} pdf {:.9g} /sr{} MIS weight {:.9g} {} {}", light, text(s.wi), s.pdf_w, s.delta ? " (delta)" : "",
+             weight, visible ? "adds" : "is hidden, would add", text(contribution));
     }
     void bounce(const BsdfSample& s, Vec3f wi, Vec3f beta) {
-        line("  bsdf      wi {} pdf {:.9g}{} weight {} -> beta {}", text(wi), s.pdf_w, s.delta ? " (delta)" : " /sr", text(s.weight), text(beta));
+        line("  bsdf      wi {} pdf {:.9g}{} weight {} -> beta {}", text(wi), s.pdf_w, s.delta ? " (delta)" : " /sr", text(s.weight),
+             text(beta));
     }
     void roulette(float u, float survival, bool survives) {
         line("  roulette  u {:.9g} survival {:.9g}: {}", u, survival, survives ? "goes on" : "ends here");
@@ -70,7 +75,8 @@ void tell_numbers(std::string& out, std::string_view title, const SampleSource& 
     out += fmt::format("{:<12}", title);
     for (const Slot& s : run)
         for (int k = 0; k < s.arity; ++k)
-            out += fmt::format("{}{}[{}] {:.9g}", &s == run.data() && k == 0 ? "" : "  ", name(s.role), s.dimension + static_cast<std::uint32_t>(k),
+            out += fmt::format("{}{}[{}] {:.9g}", &s == run.data() && k == 0 ? "" : "  ", name(s.role),
+                               s.dimension + static_cast<std::uint32_t>(k),
                                u[s.dimension - run.front().dimension + static_cast<std::uint32_t>(k)]);
     out += '\n';
 }

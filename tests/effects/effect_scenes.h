@@ -37,6 +37,42 @@ namespace koksma::testing {
     return {spot, slide, projector, DirectionalLight{{0.3, -2.0, 0.1}, Rgb(1.0f, 2.0f, 3.0f), {}}};
 }
 
+/// A group of one shape of every kind, with materials that look at normals, at u and at slopes.
+[[nodiscard]] inline ShapeGroup group_of_all_kinds(SceneDescription& d) {
+    RoughConductor brushed;
+    brushed.alpha_u = Rgb(0.4f);
+    brushed.alpha_v = Rgb(0.1f);
+    BitmapTexture waves;
+    waves.image = image(4, 4,
+                        {Rgb(0.1f), Rgb(0.8f), Rgb(0.3f), Rgb(0.5f), Rgb(0.9f), Rgb(0.2f), Rgb(0.4f), Rgb(0.6f), Rgb(0.0f), Rgb(0.7f),
+                         Rgb(0.5f), Rgb(0.1f), Rgb(0.6f), Rgb(0.3f), Rgb(0.9f), Rgb(0.4f)});
+    Material grey;
+    grey.front = Diffuse{};
+    BumpMap bump;
+    bump.height = waves;
+    bump.scale = 0.2f;
+    bump.bending.nested = {grey};
+    const std::uint32_t metal = add_material(d, brushed), both = add_diffuse(d, 0.7f, true),
+                        checks = add_material(d, Diffuse{CheckerboardTexture{}}), bent = add_material(d, bump);
+    SceneDescription g = empty_scene();
+    add_shape(g, SphereShape{}, translated({0, 0.4, 0}) * scaled(0.3), bent);
+    add_shape(g, CubeShape{}, translated({0.6, 0.2, 0}) * scaled(0.2), checks);
+    add_shape(g, DiskShape{}, translated({-0.5, 0.5, 0.1}) * rotated({1, 0, 0}, -60) * scaled(0.25), metal);
+    add_shape(g, CylinderShape{{0, 0, 0.5}, {0.3, 0.3, 0.5}, 0.1}, Matrix(1.0), both);
+    add_shape(g, RectangleShape{}, translated({-0.5, 0.2, 0.5}) * rotated({0, 1, 0}, 30) * scaled(0.2), both);
+    add_shape(
+        g,
+        mesh({{-0.3f, 0.8f, 0.2f}, {0.3f, 0.8f, 0.2f}, {0.3f, 0.9f, -0.2f}}, {{0, 1, 2}}, {{-0.3f, 1, 0}, {0.3f, 1, 0}, {0.3f, 1, 0.2f}}),
+        Matrix(1.0), both);
+    return {"group", std::move(g.shapes), {}};
+}
+
+/// A place for an instance, with what is hard about it.
+[[nodiscard]] inline std::vector<Matrix> hard_placements() {
+    return {translated({-0.9, 0, 0.2}), translated({0.9, 0.1, -0.3}) * rotated({0, 1, 0}, 70) * scaled({0.7, 1.6, 0.5}),
+            translated({0.1, 0, 0.7}) * rotated({0.6, 0.8, 0}, 25) * scaled({-0.8, 0.5, 0.6})};
+}
+
 struct EffectScene {
     Effect effect;
     SceneDescription description;
@@ -75,7 +111,9 @@ struct EffectScene {
 
     d = floor_scene(false);
     MapEnvironment m;
-    m.image = image(4, 3, {Rgb(0.1f), Rgb(1.0f), Rgb(2.0f), Rgb(0.0f), Rgb(3.0f), Rgb(0.2f), Rgb(0.3f), Rgb(1.0f), Rgb(5.0f), Rgb(0.5f), Rgb(0.1f), Rgb(0.7f)});
+    m.image = image(4, 3,
+                    {Rgb(0.1f), Rgb(1.0f), Rgb(2.0f), Rgb(0.0f), Rgb(3.0f), Rgb(0.2f), Rgb(0.3f), Rgb(1.0f), Rgb(5.0f), Rgb(0.5f),
+                     Rgb(0.1f), Rgb(0.7f)});
     d.environment = m;
     add(Effect::environment, d);
     d.environment = ConstantEnvironment{};
@@ -158,7 +196,8 @@ struct EffectScene {
     auto coloured = std::make_shared<MeshData>();
     coloured->positions = {{-1, 0.2f, 1}, {1, 0.2f, 1}, {1, 0.2f, -1}, {-1, 0.4f, -1}};
     coloured->triangles = {{0, 1, 2}, {0, 2, 3}};
-    coloured->attributes = {{"vertex_color", {Rgb(0.9f, 0.1f, 0.1f), Rgb(0.1f, 0.9f, 0.1f), Rgb(0.1f, 0.1f, 0.9f), Rgb(0.5f)}}, {"face_grey", {Rgb(0.2f), Rgb(0.6f)}}};
+    coloured->attributes = {{"vertex_color", {Rgb(0.9f, 0.1f, 0.1f), Rgb(0.1f, 0.9f, 0.1f), Rgb(0.1f, 0.1f, 0.9f), Rgb(0.5f)}},
+                            {"face_grey", {Rgb(0.2f), Rgb(0.6f)}}};
     const std::uint32_t by_vertex = add_material(d, Diffuse{MeshAttributeTexture{"vertex_color", 0.5f}});
     const std::uint32_t by_face = add_material(d, Diffuse{MeshAttributeTexture{"face_grey", 1.0f}});
     add_shape(d, MeshShape{coloured}, Matrix(1.0), by_vertex);
@@ -166,7 +205,9 @@ struct EffectScene {
     add(Effect::mesh_attribute, d);
 
     d = floor_scene();
-    add_shape(d, mesh({{-1, 0.2f, 1}, {1, 0.2f, 1}, {1, 0.2f, -1}, {-1, 0.2f, -1}}, {{0, 1, 2}, {0, 2, 3}}, {{-0.3f, 1, 0}, {0.3f, 1, 0}, {0.3f, 1, 0.2f}, {-0.3f, 1, 0}}),
+    add_shape(d,
+              mesh({{-1, 0.2f, 1}, {1, 0.2f, 1}, {1, 0.2f, -1}, {-1, 0.2f, -1}}, {{0, 1, 2}, {0, 2, 3}},
+                   {{-0.3f, 1, 0}, {0.3f, 1, 0}, {0.3f, 1, 0.2f}, {-0.3f, 1, 0}}),
               Matrix(1.0), 0);
     add(Effect::shading_normals, d);
 
@@ -177,7 +218,8 @@ struct EffectScene {
 
     d = floor_scene(false);
     for (int i = 0; i < 24; ++i)
-        add_light(d, RectangleShape{}, translated({0.2 * i - 2.4, 1 + 0.1 * (i % 5), 0.3 * (i % 3)}) * scaled(0.05) * kDown, Rgb(9.0f, 1.0f + static_cast<float>(i), 3.0f));
+        add_light(d, RectangleShape{}, translated({0.2 * i - 2.4, 1 + 0.1 * (i % 5), 0.3 * (i % 3)}) * scaled(0.05) * kDown,
+                  Rgb(9.0f, 1.0f + static_cast<float>(i), 3.0f));
     add(Effect::many_lights, d);
     // One light of many triangles: the choice of a triangle takes the slot of the choice of a light.
     d = floor_scene(false);
@@ -185,11 +227,30 @@ struct EffectScene {
     std::vector<std::array<std::uint32_t, 3>> triangles;
     for (std::uint32_t i = 0; i < 40; ++i) {
         const float x = 0.1f * static_cast<float>(i) - 2.0f;
-        for (const glm::vec3 v : {glm::vec3(x, 1.0f, 0.0f), glm::vec3(x + 0.08f, 1.0f, 0.0f), glm::vec3(x, 1.1f, 0.2f)}) corners.push_back(v);
+        for (const glm::vec3 v : {glm::vec3(x, 1.0f, 0.0f), glm::vec3(x + 0.08f, 1.0f, 0.0f), glm::vec3(x, 1.1f, 0.2f)})
+            corners.push_back(v);
         triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
     }
     add_light(d, mesh(corners, triangles), Matrix(1.0), Rgb(5.0f));
     add(Effect::many_lights, d);
+
+    d = floor_scene();
+    d.groups.push_back(group_of_all_kinds(d));
+    for (const Matrix& place : hard_placements()) d.instances.push_back({0, place, {}, {}});
+    add(Effect::instancing, d);
+
+    d.camera.shutter_open = 0.25;
+    d.camera.shutter_close = 1.0;
+    for (Instance& i : d.instances)
+        i.animation = {
+            {0.0, i.to_world}, {0.5, i.to_world * rotated({0, 1, 0}, 50)}, {1.0, translated({0.1, 0.2, 0}) * i.to_world * scaled(1.2)}};
+    d.instances[0].animation.clear();
+    Shape& wheel = add_shape(d, CubeShape{}, Matrix(1.0), 0);
+    wheel.animation = {{0.0, translated({0, 1.2, -1}) * scaled(0.2)},
+                       {1.0, translated({0, 1.2, -1}) * rotated({0, 0, 1}, 100) * scaled(0.2)}};
+    add_shape(d, SphereShape{}, Matrix(1.0), 0).animation = {{0.0, translated({-1, 0.4, 1}) * scaled(0.2)},
+                                                             {1.0, translated({-1, 1.0, 1}) * scaled(0.2)}};
+    add(Effect::motion, d);
     return out;
 }
 

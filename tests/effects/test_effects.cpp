@@ -25,6 +25,7 @@ TEST_CASE("a scene's effects are found and give the path its slots", "[effects]"
         const EffectSet e = ready.plan.effects;
         CHECK(has_slot(SlotRole::film));
         CHECK(has_slot(SlotRole::lens) == e.has(Effect::lens));
+        CHECK(has_slot(SlotRole::time) == e.has(Effect::motion));
         CHECK(has_slot(SlotRole::light_choice) == e.has(Effect::light_choice));
         CHECK(has_slot(SlotRole::lobe) == e.has(Effect::lobe));
         CHECK(has_slot(SlotRole::roulette) == e.has(Effect::roulette));

@@ -13,13 +13,13 @@ KOKSMA_MATHS_END
 #else
 
 // In the order in which they build on each other.
-#include "pack_access.h"
-#include "distribution_pack.h"
-#include "surface_pack.h"
-#include "light_pack.h"
-#include "bsdf_lanes.h"
 #include "batch_numbers.h"
+#include "bsdf_lanes.h"
+#include "distribution_pack.h"
+#include "light_pack.h"
+#include "pack_access.h"
 #include "ray_order.h"
+#include "surface_pack.h"
 
 KOKSMA_MATHS_BEGIN
 
@@ -27,6 +27,7 @@ template <EffectSet kEffects>
 class BatchTracer final : public Tracer {
     static constexpr bool kSmooth = kEffects.has(Effect::diffuse) || kEffects.has(Effect::glossy);
     static constexpr bool kExtendedLights = kEffects.has(Effect::area_light) || kEffects.has(Effect::environment);
+    static constexpr bool kInstancing = kEffects.has(Effect::instancing), kMotion = kEffects.has(Effect::motion);
     static constexpr bool kDelta = kEffects.has(Effect::specular) || kEffects.has(Effect::dielectric);
     static constexpr std::size_t kPack = static_cast<std::size_t>(kLanes);
 
@@ -35,8 +36,14 @@ class BatchTracer final : public Tracer {
 
 public:
     explicit BatchTracer(const TraceJob& job)
-        : scene_(job.scene), settings_(job.plan.integrator), numbers_(job, stats_), single_light_(job.scene), paths_(std::make_unique<detail::PathQueue>()),
-          shadows_(std::make_unique<detail::ShadowQueue>()), escaped_(std::make_unique<detail::EscapeQueue>()), order_(job.scene) {
+        : scene_(job.scene),
+          settings_(job.plan.integrator),
+          numbers_(job, stats_),
+          single_light_(job.scene),
+          paths_(std::make_unique<detail::PathQueue>()),
+          shadows_(std::make_unique<detail::ShadowQueue>()),
+          escaped_(std::make_unique<detail::EscapeQueue>()),
+          order_(job.scene) {
         for (std::uint32_t& m : packet_.mask) m = ~0u;
     }
 
@@ -85,6 +92,7 @@ private:
             ray.t_near.store(q.t_near + at);
             ray.t_far.store(q.t_far + at);
             store(Vec3<Float>(Float(1.0f)), q.beta, at);
+            if constexpr (kMotion) numbers_.time(at).store(q.time + at);
             Float(1.0f).store(q.eta_scale + at);
             Float(0.0f).store(q.pdf + at);
             Int32(-1).store(q.delta + at);
@@ -115,9 +123,14 @@ private:
         const detail::PathQueue& q = *paths_;
         const Vec3<Float> o = load(q.o, at), d = load(q.d, at);
         const bool camera = depth_ == 0;
-        closest_hit(active & is_traceable(o, d), o, d, camera ? Float::load(q.t_near + at) : Float(0.0f),
-                    camera ? Float::load(q.t_far + at) : Float(kInfinity), camera ? Coherence::coherent : Coherence::incoherent);
-        const Int32 geometry = as_int(UInt32::load(packet_.geometry)), primitive = as_int(UInt32::load(packet_.primitive));
+        const Mask sent = active & is_traceable(o, d);
+        Float time{};
+        if constexpr (kMotion) time = Float::load(q.time + at);
+        closest_hit(sent, o, d, camera ? Float::load(q.t_near + at) : Float(0.0f), camera ? Float::load(q.t_far + at) : Float(kInfinity),
+                    time, camera ? Coherence::coherent : Coherence::incoherent);
+        Int32 geometry = as_int(UInt32::load(packet_.geometry));
+        const Int32 primitive = as_int(UInt32::load(packet_.primitive));
+        if constexpr (kInstancing) resolve_instances(sent, geometry).store(instance_ + at);
         geometry.store(geometry_ + at);
         primitive.store(primitive_ + at);
         if (!order_.pays()) prefetch_triangles(scene_, active & (geometry != Int32(-1)), geometry, primitive);
@@ -134,13 +147,17 @@ private:
         active = only_traceable(active, o, d);
         if (!any(active)) return;
         const Int32 geometry = Int32::load(geometry_ + at), primitive = Int32::load(primitive_ + at);
+        Int32 instance(-1);
+        Float time{};
+        if constexpr (kInstancing) instance = Int32::load(instance_ + at);
+        if constexpr (kMotion) time = Float::load(q.time + at);
         stats_.rays.closest += static_cast<std::uint64_t>(count(active));
-        if (!hashes_.empty()) hash_hits(active, geometry, primitive);
+        if (!hashes_.empty()) hash_hits(active, geometry, primitive, instance);
         const Mask hit = active & (geometry != Int32(-1));
         if constexpr (kEffects.has(Effect::environment))
             if (const Mask escaped = active & !hit; any(escaped)) queue_escaped(at, escaped, d, beta);
         if (!any(hit)) return;
-        const SurfacePack surface = surface_pack<kEffects>(scene_, hit, o, d, geometry, primitive);
+        const SurfacePack surface = surface_pack<kEffects>(scene_, hit, o, d, geometry, primitive, instance, time);
         const Vec3<Float> wo = -d;
 
         // ---- light that the surfaces themselves send out
@@ -155,15 +172,17 @@ private:
         Mask alive = hit;
         if constexpr (kSmooth)
             if (const Mask smooth = hit & has_smooth_lobe(local.bsdf); scene_.light_choice.total() > 0.0 && any(smooth))
-                alive = direct_light(at, alive, smooth, surface, local, wo_local, beta);
+                alive = direct_light(at, alive, smooth, surface, local, wo_local, beta, time);
 
         // ---- where the paths go on
         Float u_lobe{};
         if constexpr (kEffects.has(Effect::lobe))
-            if (const Mask m = alive & chooses_lobe(local.bsdf); any(m)) u_lobe = numbers_.get_1d(at, m, SlotRole::lobe, &BounceSlots::lobe);
+            if (const Mask m = alive & chooses_lobe(local.bsdf); any(m))
+                u_lobe = numbers_.get_1d(at, m, SlotRole::lobe, &BounceSlots::lobe);
         Vec2<Float> u_direction{};
         if constexpr (kSmooth)
-            if (const Mask m = alive & has_smooth_lobe(local.bsdf); any(m)) u_direction = numbers_.get_2d(at, m, SlotRole::direction, &BounceSlots::direction);
+            if (const Mask m = alive & has_smooth_lobe(local.bsdf); any(m))
+                u_direction = numbers_.get_2d(at, m, SlotRole::direction, &BounceSlots::direction);
         const BsdfSampleOf<Float> next = sample_pack<kEffects>(scene_, local, alive, wo_local, u_lobe, u_direction);
         alive = alive & !(next.pdf_w <= Float(0.0f));
         beta *= next.weight;
@@ -194,6 +213,7 @@ private:
         next.pdf_w.compress_store(alive, q.pdf + to);
         if constexpr (kEffects.has(Effect::area_light) || kEffects.has(Effect::many_lights)) compress_store(surface.p, alive, q.last_p, to);
         if constexpr (kEffects.has(Effect::many_lights)) compress_store(lit_normal_pack<kEffects>(local, wo_local), alive, q.last_n, to);
+        if constexpr (kMotion) time.compress_store(alive, q.time + to);
         if constexpr (kEffects.has(Effect::dielectric)) eta_scale.compress_store(alive, q.eta_scale + to);
         if constexpr (kEffects.has(Effect::roulette)) lossless.compress_store(alive, q.lossless + to);
         if constexpr (kDelta)
@@ -207,7 +227,7 @@ private:
     }
 
     /// Asks Embree; the answer is in packet_.
-    void closest_hit(Mask active, const Vec3<Float>& o, const Vec3<Float>& d, Float t_near, Float t_far, Coherence coherence) {
+    void closest_hit(Mask active, const Vec3<Float>& o, const Vec3<Float>& d, Float t_near, Float t_far, Float time, Coherence coherence) {
         o.x.store(packet_.o_x);
         o.y.store(packet_.o_y);
         o.z.store(packet_.o_z);
@@ -216,9 +236,28 @@ private:
         d.z.store(packet_.d_z);
         t_near.store(packet_.t_near);
         t_far.store(packet_.t_far);
+        if constexpr (kMotion) time.store(packet_.time);
+        if constexpr (kInstancing) UInt32(Hit::kNone).store(packet_.instance[0]);
         UInt32(Hit::kNone).store(packet_.geometry);
         select(active, Int32(-1), Int32(0)).store(valid_);
         scene_.accelerator.intersect(packet_, valid_, coherence);
+    }
+
+    /// Turns the packet's ids of what is seen through instances into the scene's, as koksma::closest_hit does. @return  instances; -1: none
+    [[nodiscard]] Int32 resolve_instances(Mask active, Int32& geometry) {
+        const Int32 met = as_int(UInt32::load(packet_.instance[0]));
+        const Mask through = active & (geometry != Int32(-1)) & (met != Int32(-1));
+        if (!any(through)) return Int32(-1);
+        alignas(4 * kLanes) IntLanes instances, geometries;
+        Int32(-1).store(instances);
+        geometry.store(geometries);
+        for_lanes(through, [&](int i) {
+            const std::uint32_t instance = packet_.instance[0][i] - scene_.first_instance;
+            instances[i] = static_cast<std::int32_t>(instance);
+            geometries[i] += static_cast<std::int32_t>(scene_.instances[instance].first_geometry);
+        });
+        geometry = Int32::load(geometries);
+        return Int32::load(instances);
     }
 
     /// Finds what the rays of the queue meet, neighbours in direction and place together.
@@ -229,7 +268,8 @@ private:
             const Mask active = Mask::first(good - at);
             const Int32 place = order_.place(at);
             closest_hit(active, {gather(q.o.x, place), gather(q.o.y, place), gather(q.o.z, place)},
-                        {gather(q.d.x, place), gather(q.d.y, place), gather(q.d.z, place)}, Float(0.0f), Float(kInfinity), Coherence::coherent);
+                        {gather(q.d.x, place), gather(q.d.y, place), gather(q.d.z, place)}, Float(0.0f), Float(kInfinity), Float(0.0f),
+                        Coherence::coherent);
             alignas(4 * kLanes) IntLanes places;
             place.store(places);
             for (std::size_t i = 0; i < kPack && at + i < good; ++i) {
@@ -239,13 +279,15 @@ private:
         }
     }
 
-    void hash_hits(Mask active, Int32 geometry, Int32 primitive) {
-        alignas(4 * kLanes) IntLanes g, p;
+    void hash_hits(Mask active, Int32 geometry, Int32 primitive, Int32 instance) {
+        alignas(4 * kLanes) IntLanes g, p, through;
         geometry.store(g);
         primitive.store(p);
+        instance.store(through);
         for_lanes(active, [&](int i) {
             const auto met = static_cast<std::uint32_t>(g[i]), which = met == Hit::kNone ? Hit::kNone : static_cast<std::uint32_t>(p[i]);
             hash(i, (std::uint64_t{met} << 32) | which);
+            if (kInstancing && through[i] != -1) hash(i, static_cast<std::uint32_t>(through[i]));
         });
     }
 
@@ -255,7 +297,8 @@ private:
         Float probability;
         if constexpr (kEffects.has(Effect::many_lights)) {
             NumberLanes lanes(Float(1.0f));
-            for_lanes(escaped & !delta, [&](int i) { lanes.x[i] = light_probability(at + static_cast<std::size_t>(i), environment_light(), kWholeLight); });
+            for_lanes(escaped & !delta,
+                      [&](int i) { lanes.x[i] = light_probability(at + static_cast<std::size_t>(i), environment_light(), kWholeLight); });
             probability = lanes.pack();
         } else {
             probability = Float(light_probability(at, environment_light(), kWholeLight));
@@ -294,7 +337,8 @@ private:
             Float pdf_light(0.25f * kInvPi);
             if (mapped) {
                 // Lanes beyond the last hold old places or zeros: the map has them.
-                const EnvironmentPlaceOf<Float> place{Int32::load(q.column + at), Int32::load(q.row + at), Float::load(q.d.x + at), Float::load(q.d.y + at)};
+                const EnvironmentPlaceOf<Float> place{Int32::load(q.column + at), Int32::load(q.row + at), Float::load(q.d.x + at),
+                                                      Float::load(q.d.y + at)};
                 radiance = environment_radiance(table, place);
                 if (any(active & !delta)) pdf_light = environment_density(table, place);
             } else {
@@ -327,16 +371,18 @@ private:
             if (paths_->delta[path] == 0) {
                 const auto index = static_cast<std::uint32_t>(light[i]);
                 const std::uint32_t triangle = chosen_triangle<kEffects>(scene_, index, static_cast<std::uint32_t>(primitives[i]));
-                weight = koksma::power_heuristic(paths_->pdf[path], light_pdf<kEffects>(scene_, scene_.lights[index], vector(paths_->last_p, path), surface, wi, triangle) *
-                                                                        light_probability(path, index, triangle));
+                weight = koksma::power_heuristic(
+                    paths_->pdf[path],
+                    light_pdf<kEffects>(scene_, scene_.lights[index], vector(paths_->last_p, path), surface, wi, triangle) *
+                        light_probability(path, index, triangle));
             }
             radiance(i) += betas[i] * le * weight;
         });
     }
 
     /// Queues the shadow rays of a pack. @return  the lanes of `alive` that stay valid
-    Mask direct_light(std::size_t at, Mask alive, Mask smooth, const SurfacePack& s, const LocalBsdfPack& local, const Vec3<Float>& wo_local,
-                      const Vec3<Float>& beta) {
+    Mask direct_light(std::size_t at, Mask alive, Mask smooth, const SurfacePack& s, const LocalBsdfPack& local,
+                      const Vec3<Float>& wo_local, const Vec3<Float>& beta, Float time) {
         LightChoicePack choice = LightChoicePack::only();
         if constexpr (kEffects.has(Effect::light_choice))
             choice = choose_light_pack<kEffects>(scene_, smooth, s.p, lit_normal_pack<kEffects>(local, wo_local),
@@ -363,6 +409,7 @@ private:
         compress_store(o, lit, q.o, waiting_);
         compress_store(d, lit, q.d, waiting_);
         compress_store(contribution, lit, q.contribution, waiting_);
+        if constexpr (kMotion) time.compress_store(lit, q.time + waiting_);
         select(light.at_infinity, Float(kInfinity), Float(1.0f)).compress_store(lit, q.t_far + waiting_);
         waiting_ += Int32::load(slots_).compress_store(lit, q.slot + waiting_);
         return alive;
@@ -380,6 +427,7 @@ private:
             Float::load(q.d.y + at).store(packet_.d_y);
             Float::load(q.d.z + at).store(packet_.d_z);
             Float(0.0f).store(packet_.t_near);
+            if constexpr (kMotion) Float::load(q.time + at).store(packet_.time);
             Float::load(q.t_far + at).store(packet_.t_far);
             select(active, Int32(-1), Int32(0)).store(valid_);
             scene_.accelerator.occluded(packet_, valid_, Coherence::incoherent);  // also from camera hits: 0.63 to 0.99 of the time
@@ -441,7 +489,7 @@ private:
     std::unique_ptr<detail::EscapeQueue> escaped_;
     RayOrder order_;
     RayPacket<kLanes> packet_{};
-    alignas(64) detail::IntRow geometry_{}, primitive_{};  // what the rays met
+    alignas(64) detail::IntRow geometry_{}, primitive_{}, instance_{};  // what the rays met
     alignas(4 * kLanes) IntLanes valid_{}, slots_{};
     std::span<Vec3f> radiance_;
     std::span<std::uint64_t> hashes_;
@@ -452,7 +500,7 @@ private:
 
 template <EffectSet kEffects>
 std::unique_ptr<Tracer> make_batch_tracer(const TraceJob& job) {
-    return std::make_unique<BatchTracer<kEffects>>(job);
+    return std::make_unique<BatchTracer<kEffects> >(job);
 }
 
 KOKSMA_MATHS_END

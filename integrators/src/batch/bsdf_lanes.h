@@ -11,20 +11,28 @@ template <EffectSet kEffects>
 /// Calls f(lane, point) for layered lanes.
 template <class F>
 void for_layered(const LocalBsdfPack& local, Mask layered, F&& f) {
-    alignas(4 * kLanes) IntLanes side, geometry, primitive;
+    alignas(4 * kLanes) IntLanes side, geometry, primitive, instance;
     local.side.store(side);
     local.geometry.store(geometry);
     local.primitive.store(primitive);
-    const NumberLanes u(local.uv.x), v(local.uv.y);
+    local.instance.store(instance);
+    const NumberLanes u(local.uv.x), v(local.uv.y), time(local.time);
     const VectorLanes n(local.n);
     for_lanes(layered, [&](int i) {
-        f(i, LayeredPoint{static_cast<std::uint32_t>(side[i]), {u.x[i], v.x[i]}, n[i], static_cast<std::uint32_t>(geometry[i]), static_cast<std::uint32_t>(primitive[i])});
+        f(i, LayeredPoint{static_cast<std::uint32_t>(side[i]),
+                          {u.x[i], v.x[i]},
+                          n[i],
+                          static_cast<std::uint32_t>(geometry[i]),
+                          static_cast<std::uint32_t>(primitive[i]),
+                          static_cast<std::uint32_t>(instance[i]),
+                          time.x[i]});
     });
 }
 
 /// As koksma::eval_local.
 template <EffectSet kEffects>
-[[nodiscard]] BsdfValueOf<Float> eval_pack(const Scene& scene, const LocalBsdfPack& local, Mask active, const Vec3<Float>& wo, const Vec3<Float>& wi) {
+[[nodiscard]] BsdfValueOf<Float> eval_pack(const Scene& scene, const LocalBsdfPack& local, Mask active, const Vec3<Float>& wo,
+                                           const Vec3<Float>& wi) {
     BsdfValueOf<Float> out = eval_bsdf<kEffects>(local.bsdf, wo, wi);
     if (const Mask layered = layered_lanes<kEffects>(local, active); any(layered)) {
         const VectorLanes from(wo), to(wi);
@@ -43,7 +51,8 @@ template <EffectSet kEffects>
 
 /// As koksma::sample_local.
 template <EffectSet kEffects>
-[[nodiscard]] BsdfSampleOf<Float> sample_pack(const Scene& scene, const LocalBsdfPack& local, Mask active, const Vec3<Float>& wo, Float u_lobe, Vec2<Float> u) {
+[[nodiscard]] BsdfSampleOf<Float> sample_pack(const Scene& scene, const LocalBsdfPack& local, Mask active, const Vec3<Float>& wo,
+                                              Float u_lobe, Vec2<Float> u) {
     BsdfSampleOf<Float> out = sample_bsdf<kEffects>(local.bsdf, wo, u_lobe, u);
     if (const Mask layered = layered_lanes<kEffects>(local, active); any(layered)) {
         const VectorLanes from(wo);

@@ -7,10 +7,13 @@ struct SurfacePack {
     Vec3<Float> p, p_error, ng, n, dpdu;
     Vec2<Float> uv;
     Int32 geometry, primitive, material, light;
+    Int32 instance;  ///< with the ray's time, only with the effect instancing
+    Float time;
 };
 
 static_assert(sizeof(GeometryRecord) == 16 && offsetof(GeometryRecord, kind) == 0 && offsetof(GeometryRecord, flip) == 1 &&
-              offsetof(GeometryRecord, has_normals) == 2 && offsetof(GeometryRecord, has_uvs) == 3 && std::endian::native == std::endian::little);
+              offsetof(GeometryRecord, has_normals) == 2 && offsetof(GeometryRecord, has_uvs) == 3 &&
+              std::endian::native == std::endian::little);
 
 /// One bit of the first word of a GeometryRecord, whose bytes are kind, flip, has_normals, has_uvs.
 template <int byte>
@@ -141,33 +144,48 @@ inline void refine(const TrianglePack& t, const Vec3<Float>& o, const Vec3<Float
 }
 
 /// @param active     lanes that met something
-/// @param geometry, primitive  of those lanes; anything in others
+/// @param geometry, primitive, instance, time  of those lanes; anything in others
 template <EffectSet kEffects>
-[[nodiscard]] SurfacePack surface_pack(const Scene& scene, Mask active, Vec3<Float> o, Vec3<Float> d, Int32 geometry, Int32 primitive) {
+[[nodiscard]] SurfacePack surface_pack(const Scene& scene, Mask active, Vec3<Float> o, Vec3<Float> d, Int32 geometry, Int32 primitive,
+                                       [[maybe_unused]] Int32 instance, [[maybe_unused]] Float time) {
+    constexpr bool kAlone =
+        kEffects.has(Effect::analytic_shape) || kEffects.has(Effect::instancing);  // some points are computed one by one
     const GeometryRecord* records = scene.geometries.data();
     const Int32 g = select(active, geometry, Int32(0));
     const Int32 word = gather_int(records, 0, g);
     Mask meshes = active;
-    if constexpr (kEffects.has(Effect::analytic_shape)) meshes = active & ((word & Int32(0xff)) == Int32(static_cast<int>(GeometryKind::mesh)));
+    if constexpr (kEffects.has(Effect::analytic_shape))
+        meshes = active & ((word & Int32(0xff)) == Int32(static_cast<int>(GeometryKind::mesh)));
+    if constexpr (kEffects.has(Effect::instancing)) meshes = meshes & (instance == Int32(-1));
     SurfacePack s;
-    if (!kEffects.has(Effect::analytic_shape) || any(meshes)) {
+    if (!kAlone || any(meshes)) {
         const Int32 triangle = select(meshes, gather_int(records, offsetof(GeometryRecord, first), g) + primitive, Int32(0));
         const TrianglePack t = gather_triangle(scene, triangle);
         s = triangle_surface_pack<kEffects>(scene, t, word, meshes, barycentrics(t.v0, t.v1, t.v2, o, d));
         if (const Mask coarse = meshes & (is_coarse(s.p, s.p_error, o) | is_needle(t.v0, t.v1, t.v2)); any(coarse))
             refine(t, o, d, coarse, s);
     }
-    if constexpr (kEffects.has(Effect::analytic_shape))
+    if constexpr (kAlone)
         if (const Mask others = active & !meshes; any(others)) {
             SurfaceLanes lanes(s);
             const VectorLanes origins(o), directions(d);
-            alignas(4 * kLanes) IntLanes geometries;
+            const NumberLanes times(time);
+            alignas(4 * kLanes) IntLanes geometries, primitives, instances;
             g.store(geometries);
+            primitive.store(primitives);
+            instance.store(instances);
             for_lanes(others, [&](int i) {
-                lanes.set(i, koksma::surface_at<kEffects>(scene, Ray{origins[i], directions[i]}, {static_cast<std::uint32_t>(geometries[i]), 0}));
+                const Ray ray{.o = origins[i], .d = directions[i], .time = times.x[i]};
+                const Hit hit{static_cast<std::uint32_t>(geometries[i]), static_cast<std::uint32_t>(primitives[i]),
+                              static_cast<std::uint32_t>(instances[i])};
+                lanes.set(i, koksma::surface_at<kEffects>(scene, ray, hit));
             });
             lanes.get(s);
         }
+    if constexpr (kEffects.has(Effect::instancing)) {
+        s.instance = instance;
+        s.time = time;
+    }
     s.geometry = g;
     s.primitive = primitive;
     s.material = gather_int(records, offsetof(GeometryRecord, material), g);
@@ -177,7 +195,8 @@ template <EffectSet kEffects>
 
 /// The value of a texture, whose reference is a member of the records that an index selects.
 template <EffectSet kEffects, class Record>
-[[nodiscard]] Vec3<Float> texture_pack(const Scene& scene, const Record* records, std::size_t offset, Int32 index, Mask active, Vec2<Float> uv) {
+[[nodiscard]] Vec3<Float> texture_pack(const Scene& scene, const Record* records, std::size_t offset, Int32 index, Mask active,
+                                       Vec2<Float> uv) {
     Vec3<Float> value = gather_vector(records, offset + offsetof(TextureRef, constant), index);
     if constexpr (kEffects.has(Effect::texture)) {
         const Int32 texture = gather_int(records, offset + offsetof(TextureRef, index), index);
@@ -196,7 +215,8 @@ template <EffectSet kEffects, class Record>
 struct LocalBsdfPack {
     BsdfOf<Float> bsdf;
     FrameOf<Float> frame;
-    Int32 side, geometry, primitive;  ///< where a layered material is asked, with
+    Int32 side, geometry, primitive, instance;  ///< where a layered material is asked, with
+    Float time;
     Vec2<Float> uv;
     Vec3<Float> n;
 };
@@ -230,6 +250,12 @@ template <EffectSet kEffects>
         out.side = side;
         out.geometry = s.geometry;
         out.primitive = s.primitive;
+        out.instance = Int32(-1);
+        out.time = Float(0.0f);
+        if constexpr (kEffects.has(Effect::instancing)) {
+            out.instance = s.instance;
+            out.time = s.time;
+        }
         out.uv = s.uv;
         out.n = s.n;
     }

@@ -10,7 +10,10 @@ namespace koksma::detail {
 /// Watches what a path meets.
 struct HashObserver : NoObserver {
     std::uint64_t hash = 0;
-    void met(const Ray&, Hit hit) noexcept { hash = path_hash(hash, (std::uint64_t{hit.geometry} << 32) | hit.primitive); }
+    void met(const Ray&, Hit hit) noexcept {
+        hash = path_hash(hash, (std::uint64_t{hit.geometry} << 32) | hit.primitive);
+        if (hit.instance != Hit::kNone) hash = path_hash(hash, hit.instance);
+    }
     void shadow(const Ray&, bool visible) noexcept { hash = path_hash(hash, visible); }
 };
 

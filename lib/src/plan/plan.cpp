@@ -24,8 +24,8 @@ BounceSlots offsets(SlotRun run) {
         const Slot* slot = DimensionLayout::find(run, role);
         return static_cast<std::int16_t>(slot == nullptr ? -1 : static_cast<int>(slot->dimension - run.front().dimension));
     };
-    return {at(SlotRole::light_choice), at(SlotRole::light_position), at(SlotRole::lobe), at(SlotRole::direction), at(SlotRole::roulette),
-            at(SlotRole::distance),     at(SlotRole::collision),      at(SlotRole::passage)};
+    return {at(SlotRole::light_choice), at(SlotRole::light_position), at(SlotRole::lobe),      at(SlotRole::direction),
+            at(SlotRole::roulette),     at(SlotRole::distance),       at(SlotRole::collision), at(SlotRole::passage)};
 }
 
 /// What is decided on the way to a vertex.
@@ -41,6 +41,7 @@ DimensionLayout make_layout(EffectSet effects, const IntegratorSettings& setting
     DimensionLayout layout;
     layout.add_camera(SlotRole::film, 2);
     if (effects.has(Effect::lens)) layout.add_camera(SlotRole::lens, 2);
+    if (effects.has(Effect::motion)) layout.add_camera(SlotRole::time, 1);
     const bool smooth = effects.has(Effect::diffuse) || effects.has(Effect::glossy) || effects.has(Effect::medium);
     const bool light_has_extent = effects.has(Effect::area_light) || effects.has(Effect::environment);
     for (std::int32_t b = 0; b < bounce_limit(settings); ++b) {
@@ -71,7 +72,10 @@ RenderPlan make_plan(const Scene& scene, const IntegratorSettings& settings) {
     if (settings.max_depth < 0 || settings.max_depth - 1 >= std::max(settings.rr_depth, 1)) plan.effects |= {Effect::roulette};
     if (settings.technique != Technique::both) plan.effects |= {Effect::one_technique};
     plan.layout = make_layout(plan.effects, settings);
-    if (const Slot* lens = DimensionLayout::find(plan.layout.camera(), SlotRole::lens)) plan.lens = static_cast<std::int16_t>(lens->dimension);
+    if (const Slot* lens = DimensionLayout::find(plan.layout.camera(), SlotRole::lens))
+        plan.lens = static_cast<std::int16_t>(lens->dimension);
+    if (const Slot* time = DimensionLayout::find(plan.layout.camera(), SlotRole::time))
+        plan.time = static_cast<std::int16_t>(time->dimension);
     for (std::size_t b = 0; b < plan.layout.bounce_count(); ++b) {
         const SlotRun run = plan.layout.bounce(b);
         plan.bounces.push_back(run.empty() ? BounceSlots{} : offsets(run));

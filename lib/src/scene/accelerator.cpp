@@ -12,6 +12,7 @@
 #include <string>
 #include <utility>
 #include <variant>
+#include <vector>
 
 namespace koksma {
 
@@ -49,6 +50,7 @@ void intersect_user(const RTCIntersectFunctionNArguments* args) {
         RTCRayN_tfar(rays, args->N, i) = t;
         RTCHitN_geomID(hits, args->N, i) = user.geometry;
         RTCHitN_primID(hits, args->N, i) = 0;
+        RTCHitN_instID(hits, args->N, i, 0) = args->context->instID[0];
     }
 }
 
@@ -96,6 +98,7 @@ RTCRay embree_ray(const Ray& ray) noexcept {
     r.dir_z = ray.d.z;
     r.tnear = ray.t_near;
     r.tfar = ray.t_far;
+    r.time = ray.time;
     r.mask = ~0u;
     return r;
 }
@@ -125,8 +128,9 @@ constexpr bool same_layout() {
     using Hits = decltype(RayHit::hit);
     constexpr std::size_t hit = offsetof(RayHit, hit);
     return sizeof(RayHit) <= sizeof(Own) && alignof(RayHit) <= alignof(Own) && offsetof(RayHit, ray) == 0 &&
-           offsetof(Ray, org_x) == offsetof(Own, o_x) && offsetof(Ray, tnear) == offsetof(Own, t_near) && offsetof(Ray, dir_x) == offsetof(Own, d_x) &&
-           offsetof(Ray, time) == offsetof(Own, time) && offsetof(Ray, tfar) == offsetof(Own, t_far) && offsetof(Ray, mask) == offsetof(Own, mask) &&
+           offsetof(Ray, org_x) == offsetof(Own, o_x) && offsetof(Ray, tnear) == offsetof(Own, t_near) &&
+           offsetof(Ray, dir_x) == offsetof(Own, d_x) && offsetof(Ray, time) == offsetof(Own, time) &&
+           offsetof(Ray, tfar) == offsetof(Own, t_far) && offsetof(Ray, mask) == offsetof(Own, mask) &&
            offsetof(Ray, flags) == offsetof(Own, flags) && hit + offsetof(Hits, primID) == offsetof(Own, primitive) &&
            hit + offsetof(Hits, geomID) == offsetof(Own, geometry) && hit + offsetof(Hits, instID) == offsetof(Own, instance);
 }
@@ -137,8 +141,9 @@ static_assert(same_layout<4>() && same_layout<8>() && same_layout<16>(), "RayPac
 struct Accelerator::Impl {
     RTCDevice device = nullptr;
     RTCScene scene = nullptr;
+    std::vector<RTCScene> groups;
     std::deque<UserShape> shapes;  // a deque: addresses are handed to Embree
-    unsigned geometries = 0;
+    std::vector<std::pair<RTCScene, unsigned>> geometries;
     bool committed = false;
     std::function<void(const PacketQuery&)> watcher;
 
@@ -151,17 +156,23 @@ struct Accelerator::Impl {
     }
     ~Impl() {
         rtcReleaseScene(scene);
+        for (const RTCScene group : groups) rtcReleaseScene(group);
         rtcReleaseDevice(device);
     }
     Impl(const Impl&) = delete;
     Impl& operator=(const Impl&) = delete;
 
-    void attach(RTCGeometry geometry) {
+    /// Where geometries go to now.
+    [[nodiscard]] RTCScene open() const { return groups.empty() ? scene : groups.back(); }
+    /// @return  its id
+    unsigned attach(RTCScene to, RTCGeometry geometry) {
         rtcSetGeometryMask(geometry, ~0u);  // Embree 4 defaults to 1, Embree 3 to all
         rtcCommitGeometry(geometry);
-        geometries = rtcAttachGeometry(scene, geometry) + 1;
+        const unsigned id = rtcAttachGeometry(to, geometry);
+        geometries.emplace_back(to, id);
         rtcReleaseGeometry(geometry);
         check();
+        return id;
     }
     void add_user(UserShape shape) {
         RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
@@ -171,11 +182,11 @@ struct Accelerator::Impl {
         rtcSetGeometryBoundsFunction(geometry, bounds_user, nullptr);
         rtcSetGeometryIntersectFunction(geometry, intersect_user);
         rtcSetGeometryOccludedFunction(geometry, occluded_user);
-        rtcCommitGeometry(geometry);
-        shapes.back().geometry = rtcAttachGeometry(scene, geometry);
-        geometries = shapes.back().geometry + 1;
-        rtcReleaseGeometry(geometry);
-        check();
+        shapes.back().geometry = attach(open(), geometry);
+    }
+    void commit(RTCScene s, bool robust) const {
+        rtcSetSceneFlags(s, robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
+        rtcCommitScene(s);
     }
     void check() const {
         if (const RTCError code = rtcGetDeviceError(device); code != RTC_ERROR_NONE)
@@ -193,11 +204,29 @@ void Accelerator::add_mesh(std::span<const Vec3f> vertices, std::span<const std:
     rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, vertices.data(), 0, sizeof(Vec3f), vertices.size());
     rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, triangles.data(), 0, sizeof(triangles[0]),
                                triangles.size());
-    impl_->attach(geometry);
+    impl_->attach(impl_->open(), geometry);
+}
+
+void Accelerator::begin_group() {
+    impl_->groups.push_back(rtcNewScene(impl_->device));
+    rtcSetSceneBuildQuality(impl_->groups.back(), RTC_BUILD_QUALITY_HIGH);
+}
+
+void Accelerator::add_instance(std::uint32_t group, std::span<const Placement> placements) {
+    RTCGeometry geometry = rtcNewGeometry(impl_->device, RTC_GEOMETRY_TYPE_INSTANCE);
+    rtcSetGeometryInstancedScene(geometry, impl_->groups.at(group));
+    rtcSetGeometryTimeStepCount(geometry, static_cast<unsigned>(placements.size()));
+    for (std::size_t i = 0; i < placements.size(); ++i) {
+        const Placement& p = placements[i];
+        const Vec3f columns[4] = {to_float(p.x), to_float(p.y), to_float(p.z), to_float(p.t)};
+        rtcSetGeometryTransform(geometry, static_cast<unsigned>(i), RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
+    }
+    impl_->attach(impl_->scene, geometry);
 }
 
 void Accelerator::add_sphere(const AnalyticSphere& sphere) {
-    if (!(length(sphere.center) + sphere.radius < kLargestCoordinate)) throw Error("a sphere reaches farther from the camera than 1.8e18, or is not finite");
+    if (!(length(sphere.center) + sphere.radius < kLargestCoordinate))
+        throw Error("a sphere reaches farther from the camera than 1.8e18, or is not finite");
     impl_->add_user({sphere});
 }
 void Accelerator::add_disk(const AnalyticDisk& disk) {
@@ -215,22 +244,25 @@ void Accelerator::add_cylinder(const AnalyticCylinder& cylinder) {
 void Accelerator::watch(std::function<void(const PacketQuery&)> watcher) { impl_->watcher = std::move(watcher); }
 
 void Accelerator::commit(bool robust) {
-    rtcSetSceneFlags(impl_->scene, robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
     // Embree builds anew only what it takes for changed.
-    for (unsigned i = 0; impl_->committed && i < impl_->geometries; ++i) rtcCommitGeometry(rtcGetGeometry(impl_->scene, i));
+    if (impl_->committed)
+        for (const auto& [scene, id] : impl_->geometries) rtcCommitGeometry(rtcGetGeometry(scene, id));
     impl_->committed = true;
     // Embree flushes denormals while it builds, and the first TBB task of a process sets the mode of all later ones: without
     // an arena of its own the host's tasks would flush for ever.
-    tbb::task_arena().execute([&] { rtcCommitScene(impl_->scene); });
+    tbb::task_arena().execute([&] {
+        for (const RTCScene group : impl_->groups) impl_->commit(group, robust);
+        impl_->commit(impl_->scene, robust);
+    });
     impl_->check();
 }
 
 Hit Accelerator::intersect(const Ray& ray) const noexcept {
     RTCRayHit rh;
     rh.ray = embree_ray(ray);
-    rh.hit.geomID = rh.hit.primID = RTC_INVALID_GEOMETRY_ID;  // Embree writes neither where it meets nothing
+    rh.hit.geomID = rh.hit.primID = rh.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;  // Embree writes none where it meets nothing
     embree::intersect1(impl_->scene, rh);
-    return {rh.hit.geomID, rh.hit.primID};
+    return {rh.hit.geomID, rh.hit.primID, rh.hit.instID[0]};
 }
 
 bool Accelerator::occluded(const Ray& ray) const noexcept {
@@ -242,12 +274,14 @@ bool Accelerator::occluded(const Ray& ray) const noexcept {
 template <int N>
 void Accelerator::intersect(RayPacket<N>& rays, const std::int32_t* valid, Coherence coherence) const noexcept {
     if (impl_->watcher) impl_->watcher({N, false, coherence, rays.o_x, valid});
-    embree::intersect(valid, impl_->scene, reinterpret_cast<typename Packet<N>::RayHit&>(rays), embree::IntersectQuery(coherence == Coherence::coherent));
+    embree::intersect(valid, impl_->scene, reinterpret_cast<typename Packet<N>::RayHit&>(rays),
+                      embree::IntersectQuery(coherence == Coherence::coherent));
 }
 template <int N>
 void Accelerator::occluded(RayPacket<N>& rays, const std::int32_t* valid, Coherence coherence) const noexcept {
     if (impl_->watcher) impl_->watcher({N, true, coherence, rays.o_x, valid});
-    embree::occluded(valid, impl_->scene, reinterpret_cast<typename Packet<N>::Ray&>(rays), embree::OccludedQuery(coherence == Coherence::coherent));
+    embree::occluded(valid, impl_->scene, reinterpret_cast<typename Packet<N>::Ray&>(rays),
+                     embree::OccludedQuery(coherence == Coherence::coherent));
 }
 template void Accelerator::intersect(RayPacket<4>&, const std::int32_t*, Coherence) const noexcept;
 template void Accelerator::intersect(RayPacket<8>&, const std::int32_t*, Coherence) const noexcept;

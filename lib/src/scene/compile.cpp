@@ -53,7 +53,9 @@ CompiledCamera compile_camera(const Camera& c, const FilmSettings& film) {
 
 void build_accelerator(Scene& scene) {
     scene.positions.emplace_back(0.0f);  // Embree reads four floats at the last vertex
+    std::size_t group = 0;
     for (std::size_t i = 0; i < scene.geometries.size(); ++i) {
+        for (; group < scene.groups.size() && scene.groups[group].first_geometry == i; ++group) scene.accelerator.begin_group();
         const GeometryRecord& g = scene.geometries[i];
         if (g.kind == GeometryKind::sphere) {
             scene.accelerator.add_sphere(scene.spheres[g.first]);
@@ -71,6 +73,11 @@ void build_accelerator(Scene& scene) {
             scene.accelerator.add_mesh(std::span(scene.positions).first(scene.positions.size() - 1),
                                        std::span(scene.triangles).subspan(g.first, end - g.first));
         }
+    }
+    for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+        const InstanceRecord& instance = scene.instances[i];
+        scene.accelerator.add_instance(scene.description.instances[i].group,
+                                       std::span(scene.placements).subspan(instance.first_placement, instance.placement_count));
     }
     scene.accelerator.commit();
 }
@@ -106,6 +113,15 @@ TextureRef texture_ref(Scene& scene, const Texture& texture) {
 
 }  // namespace detail
 
+const Shape& shape_of(const SceneDescription& compiled, std::uint32_t geometry) noexcept {
+    std::size_t i = geometry;
+    if (i < compiled.shapes.size()) return compiled.shapes[i];
+    i -= compiled.shapes.size();
+    std::size_t group = 0;
+    for (; i >= compiled.groups[group].shapes.size(); ++group) i -= compiled.groups[group].shapes.size();
+    return compiled.groups[group].shapes[i];
+}
+
 Scene compile(const SceneDescription& description) {
     Scene scene;
     scene.description = description;
@@ -117,8 +133,10 @@ Scene compile(const SceneDescription& description) {
     scene.camera = compile_camera(description.camera, scene.film);
     if (scene.camera.aperture_radius > 0.0f) scene.call_for({Effect::lens}, description.camera.where);
     const glm::dvec3 origin(description.camera.to_world[3]);
+    const auto placements = detail::settle(scene.description);
     detail::compile_materials(scene);
     detail::compile_shapes(scene, origin);
+    detail::compile_instances(scene, placements, origin);
     detail::compile_media(scene, origin);
     build_accelerator(scene);
     detail::compile_lights(scene, origin);

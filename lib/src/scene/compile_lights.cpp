@@ -28,8 +28,10 @@ void check_radiance(const Image& image, const SourceLocation& where) {
 void check_radiance(const Texture& t, const SourceLocation& where) {
     if (const auto* constant = std::get_if<Rgb>(&t)) check_radiance(*constant, where);
     if (const auto* bitmap = std::get_if<BitmapTexture>(&t)) check_radiance(*bitmap->image, where);
-    if (const auto* checks = std::get_if<CheckerboardTexture>(&t)) check_radiance(checks->color0, where), check_radiance(checks->color1, where);
-    if (std::holds_alternative<MeshAttributeTexture>(t)) throw Error(where.text() + ": light that varies with a mesh attribute is not supported");
+    if (const auto* checks = std::get_if<CheckerboardTexture>(&t))
+        check_radiance(checks->color0, where), check_radiance(checks->color1, where);
+    if (std::holds_alternative<MeshAttributeTexture>(t))
+        throw Error(where.text() + ": light that varies with a mesh attribute is not supported");
 }
 
 /// Twice the area times the normal, in double.
@@ -85,19 +87,6 @@ double make_surface_light(const Scene& scene, const Shape& shape, std::size_t ge
     return area;
 }
 
-float bounding_radius(const Scene& scene) {
-    double r2 = 0.0;
-    const auto grow = [&](Vec3d p, double radius) {
-        const double d = length(p) + radius;
-        if (d * d > r2) r2 = d * d;
-    };
-    for (std::size_t i = 0; i + 1 < scene.positions.size(); ++i) grow(to_double(scene.positions[i]), 0.0);
-    for (const AnalyticSphere& s : scene.spheres) grow(s.center, s.radius);
-    for (const AnalyticDisk& d : scene.disks) grow(d.center, length(d.s) + length(d.t));
-    for (const AnalyticCylinder& c : scene.cylinders) grow(c.base, c.radius), grow(c.base + c.axis, c.radius);
-    return r2 > 0.0 ? static_cast<float>(std::sqrt(r2)) : 1.0f;
-}
-
 /// Lights, of meshes triangles, from which on a tree chooses (docs/design.md, "Many lights", has the measurement).
 constexpr std::size_t kManyLights = 16;
 
@@ -106,8 +95,8 @@ constexpr float kDistantShare = 0.5f;
 
 bool is_distant(const Light& light) { return light.kind == LightKind::environment || light.kind == LightKind::directional; }
 
-/// What lights at infinity give grows with the ball around the scene, most of which may be empty. Their powers are scaled to their share, so
-/// that neither kind is starved: no kind has more than twice the variance that it would have alone.
+/// What lights at infinity give grows with the ball around the scene, most of which may be empty. Their powers are scaled to their share,
+/// so that neither kind is starved: no kind has more than twice the variance that it would have alone.
 std::vector<double> shared_out(const Scene& scene, std::vector<double> powers) {
     double distant = 0.0, near = 0.0;
     for (std::size_t i = 0; i < powers.size(); ++i) (is_distant(scene.lights[i]) ? distant : near) += powers[i];
@@ -125,7 +114,8 @@ void compile_light_tree(Scene& scene, std::span<const double> radiances, std::sp
     for (std::size_t i = 0; i < scene.lights.size(); ++i)
         if (is_distant(scene.lights[i])) sum += powers[i];
     for (std::size_t i = 0; i < scene.lights.size(); ++i)
-        if (is_distant(scene.lights[i]) && powers[i] > 0.0) scene.light_tree.distant.push_back({static_cast<std::uint32_t>(i), static_cast<float>(powers[i] / sum)});
+        if (is_distant(scene.lights[i]) && powers[i] > 0.0)
+            scene.light_tree.distant.push_back({static_cast<std::uint32_t>(i), static_cast<float>(powers[i] / sum)});
     if (sum > 0.0) scene.light_tree.distant_share = kDistantShare;
     scene.effects |= {Effect::light_choice, Effect::many_lights};
 }
@@ -212,7 +202,6 @@ struct DeltaLightCompiler {
 
 void compile_lights(Scene& scene, glm::dvec3 origin) {
     const SceneDescription& d = scene.description;
-    scene.bounding_radius = bounding_radius(scene);
     std::vector<double> powers, radiances;
 
     for (std::size_t i = 0; i < d.shapes.size(); ++i) {
@@ -225,7 +214,8 @@ void compile_lights(Scene& scene, glm::dvec3 origin) {
         light.area = static_cast<float>(area);
         // A denormal area is zero to a renderer that flushes denormals.
         if (!(light.area >= 1e-37f) || !std::isfinite(light.area))
-            throw Error(d.shapes[i].where.text() + ": a light of area " + std::to_string(area) + " m^2; it must be positive (and at least 1e-37)");
+            throw Error(d.shapes[i].where.text() + ": a light of area " + std::to_string(area) +
+                        " m^2; it must be positive (and at least 1e-37)");
         light.radiance = texture_ref(scene, d.shapes[i].emission->radiance);
         scene.geometries[i].light = static_cast<std::int32_t>(scene.lights.size());
         scene.effects |= {Effect::area_light};

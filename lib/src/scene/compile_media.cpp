@@ -105,8 +105,8 @@ void compile_media(Scene& scene, glm::dvec3 origin) {
         return records[*medium] = static_cast<std::int32_t>(scene.media.size() - 1);
     };
     scene.camera_medium = record(d.camera.medium);
-    for (std::size_t i = 0; i < d.shapes.size(); ++i) {
-        const Shape& s = d.shapes[i];
+    for (std::uint32_t i = 0; i < scene.geometries.size(); ++i) {
+        const Shape& s = shape_of(d, i);
         scene.boundaries.push_back({s.interior.has_value() || s.exterior.has_value(), record(s.interior), record(s.exterior)});
     }
     if (scene.media.empty()) scene.boundaries.clear();

@@ -2,11 +2,13 @@
 
 #include "compile.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace koksma::detail {
@@ -77,7 +79,8 @@ public:
         const glm::dvec3 own = glm::normalize(c.p1 - c.p0);
         const auto [s, t] = frame_about(own);
         const glm::dvec3 world_s = glm::dmat3(m) * s, world_t = glm::dmat3(m) * t;
-        AnalyticCylinder cylinder{vec(p0 - origin_), vec(axis), vec(glm::normalize(world_s)), vec(glm::normalize(world_t)), c.radius * glm::length(world_s)};
+        AnalyticCylinder cylinder{vec(p0 - origin_), vec(axis), vec(glm::normalize(world_s)), vec(glm::normalize(world_t)),
+                                  c.radius * glm::length(world_s)};
         if (!(cylinder.radius > 0.0) || !std::isfinite(cylinder.radius) || !(glm::length(axis) > 0.0))
             throw Error(shape_.where.text() + ": a cylinder needs a positive radius and a length");
         GeometryRecord g = record(GeometryKind::cylinder);
@@ -148,7 +151,8 @@ private:
             const AttributeSlot& slot = scene_.attribute_slots[i];
             if (slot.index < 0) continue;
             const std::string& name = std::get<MeshAttributeTexture>(scene_.textures[i]).name;
-            const auto found = std::find_if(mesh.attributes.begin(), mesh.attributes.end(), [&](const MeshAttribute& a) { return a.name == name; });
+            const auto found =
+                std::find_if(mesh.attributes.begin(), mesh.attributes.end(), [&](const MeshAttribute& a) { return a.name == name; });
             if (found == mesh.attributes.end()) continue;
             std::vector<Vec3f>& values = scene_.attributes[static_cast<std::size_t>(slot.index)];
             values.resize(slot.per_face ? g.first : base);
@@ -163,18 +167,81 @@ private:
 
 }  // namespace
 
+namespace {
+
+/// Somewhere among the shapes of a group, so that their coordinates are small.
+glm::dvec3 middle_of(const ShapeGroup& group) {
+    glm::dvec3 low(std::numeric_limits<double>::infinity()), high = -low;
+    for (const Shape& s : group.shapes) {
+        const auto grow = [&](glm::dvec3 p) {
+            p = glm::dvec3(s.to_world * glm::dvec4(p, 1.0));
+            low = glm::min(low, p);
+            high = glm::max(high, p);
+        };
+        if (const auto* mesh = std::get_if<MeshShape>(&s.geometry)) {
+            for (const glm::vec3& v : mesh->data->positions) grow(v);
+        } else if (const auto* sphere = std::get_if<SphereShape>(&s.geometry)) {
+            grow(sphere->center);
+        } else if (const auto* cylinder = std::get_if<CylinderShape>(&s.geometry)) {
+            grow(cylinder->p0), grow(cylinder->p1);
+        } else {
+            grow(glm::dvec3(0.0));
+        }
+    }
+    return (low + high) * 0.5;
+}
+
+void compile_group(Scene& scene, const ShapeGroup& group) {
+    GroupRecord record;
+    record.first_geometry = static_cast<std::uint32_t>(scene.geometries.size());
+    record.geometry_count = static_cast<std::uint32_t>(group.shapes.size());
+    const glm::dvec3 middle = middle_of(group);
+    record.origin = {middle.x, middle.y, middle.z};
+    const GeometryCounts before{scene.positions.size(), scene.spheres.size(), scene.disks.size(), scene.cylinders.size()};
+    for (const Shape& shape : group.shapes) {
+        if (shape.emission) throw Error(shape.emission->where.text() + ": a shape of a group cannot emit");
+        const Caller caller(scene, shape.where);
+        std::visit(ShapeCompiler(scene, shape, middle), shape.geometry);
+    }
+    record.radius = radius_from(scene, before);
+    scene.groups.push_back(record);
+}
+
+}  // namespace
+
+double radius_from(const Scene& scene, GeometryCounts first) {
+    double r2 = 0.0;
+    const auto grow = [&](Vec3d p, double radius) {
+        const double d = length(p) + radius;
+        if (d * d > r2) r2 = d * d;
+    };
+    for (std::size_t i = first.positions; i < scene.positions.size(); ++i) grow(to_double(scene.positions[i]), 0.0);
+    for (std::size_t i = first.spheres; i < scene.spheres.size(); ++i) grow(scene.spheres[i].center, scene.spheres[i].radius);
+    for (std::size_t i = first.disks; i < scene.disks.size(); ++i)
+        grow(scene.disks[i].center, length(scene.disks[i].s) + length(scene.disks[i].t));
+    for (std::size_t i = first.cylinders; i < scene.cylinders.size(); ++i) {
+        const AnalyticCylinder& c = scene.cylinders[i];
+        grow(c.base, c.radius), grow(c.base + c.axis, c.radius);
+    }
+    return std::sqrt(r2);
+}
+
 void compile_shapes(Scene& scene, glm::dvec3 origin) {
     for (const Shape& shape : scene.description.shapes) {
         const Caller caller(scene, shape.where);
         std::visit(ShapeCompiler(scene, shape, origin), shape.geometry);
     }
+    const double radius = radius_from(scene, {});
+    scene.bounding_radius = radius > 0.0 ? static_cast<float>(radius) : 1.0f;
+    for (const ShapeGroup& group : scene.description.groups) compile_group(scene, group);
     // Arrays are parallel where they are used: pad the shorter ones to the vertex count.
     if (!scene.uvs.empty()) scene.uvs.resize(scene.positions.size());
     if (!scene.normals.empty()) scene.normals.resize(scene.positions.size(), Vec3f(0.0f));
     // A shape without the attribute that its material looks up was refused with the materials.
     for (std::size_t i = 0; i < scene.attribute_slots.size(); ++i)
         if (const AttributeSlot& slot = scene.attribute_slots[i]; slot.index >= 0)
-            scene.attributes[static_cast<std::size_t>(slot.index)].resize(slot.per_face ? scene.triangles.size() : scene.positions.size(), Vec3f(0.0f));
+            scene.attributes[static_cast<std::size_t>(slot.index)].resize(slot.per_face ? scene.triangles.size() : scene.positions.size(),
+                                                                          Vec3f(0.0f));
 }
 
 }  // namespace koksma::detail

@@ -65,6 +65,8 @@ template <EffectSet kEffects, class Observer>
     const Pixel pixel = draws.id().pixel;
     const auto from_camera = camera_ray<float>(scene.camera, film_point(scene.camera, pixel.x, pixel.y, draws.film()), u_lens);
     Ray ray{from_camera.o, from_camera.d, from_camera.t_near, from_camera.t_far};
+    float time = 0.0f;
+    if constexpr (kEffects.has(Effect::motion)) ray.time = time = draws.time();
     observer.camera(ray);
     if (settings.max_depth == 0) return radiance;
 
@@ -76,7 +78,7 @@ template <EffectSet kEffects, class Observer>
         // ---- where the ray goes
         if (!is_traceable(ray.o, ray.d)) return kInvalid;
         ++rays.closest;
-        const Hit hit = scene.accelerator.intersect(ray);
+        const Hit hit = closest_hit<kEffects>(scene, ray);
         observer.met(ray, hit);
         if (!hit.valid()) {
             if constexpr (kEffects.has(Effect::environment)) {
@@ -139,6 +141,7 @@ template <EffectSet kEffects, class Observer>
                         shadow.o = offset_origin(surface.p, surface.p_error, surface.ng, light.wi);
                         shadow.d = light.at_infinity ? light.wi : light.target - shadow.o;
                         shadow.t_far = light.at_infinity ? kInfinity : 1.0f;
+                        shadow.time = time;
                         if (!is_traceable(shadow.o, shadow.d)) return kInvalid;
                         ++rays.shadow;
                         const bool visible = !scene.accelerator.occluded(shadow);
@@ -174,7 +177,7 @@ template <EffectSet kEffects, class Observer>
             last_was_delta = false;
         last_p = surface.p;
         if constexpr (kEffects.has(Effect::many_lights)) last_n = lit_normal_of<kEffects>(local, wo_local);
-        ray = Ray{offset_origin(surface.p, surface.p_error, surface.ng, wi), wi};
+        ray = Ray{.o = offset_origin(surface.p, surface.p_error, surface.ng, wi), .d = wi, .time = time};
 
         // ---- Russian roulette: survival is never capped below one (a cap q gives infinite variance once albedo^2 >= q), except
         //      for a path that has lost nothing for long: trapped in glass by total reflection, it would go on for ever

@@ -51,7 +51,7 @@ public:
             ++rays_.shadow;
             Hit hit;
             if (crosses_)
-                hit = scene_.accelerator.intersect(shadow);
+                hit = closest_hit<kEffects>(scene_, shadow);
             else if (scene_.accelerator.occluded(shadow))
                 out.transmittance = Vec3f(0.0f);
             if (!hit.valid()) {

@@ -37,6 +37,7 @@ template <EffectSet kEffects, class Observer>
     const Pixel pixel = draws.id().pixel;
     const auto from_camera = camera_ray<float>(scene.camera, film_point(scene.camera, pixel.x, pixel.y, draws.film()), draws.lens());
     Ray ray{from_camera.o, from_camera.d, from_camera.t_near, from_camera.t_far};
+    if constexpr (kEffects.has(Effect::motion)) ray.time = draws.time();
     observer.camera(ray);
     if (settings.max_depth == 0) return radiance;
 
@@ -65,7 +66,7 @@ template <EffectSet kEffects, class Observer>
         for (;;) {
             if (!is_traceable(ray.o, ray.d)) return kInvalid;
             ++rays.closest;
-            const Hit hit = scene.accelerator.intersect(ray);
+            const Hit hit = closest_hit<kEffects>(scene, ray);
             observer.met(ray, hit);
             if (hit.valid()) surface = surface_at<kEffects>(scene, ray, hit);
             if (medium >= 0) {

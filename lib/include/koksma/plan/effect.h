@@ -34,16 +34,18 @@ enum class Effect : std::uint8_t {
     heterogeneous,    ///< media that vary in space: a 1-D draw per bounce, of which collision is real
     null_boundary,    ///< surfaces that volumetric paths cross straight on, shadow rays too
     mask,             ///< such as stop a part of the paths: a 1-D draw per bounce
+    instancing,       ///< groups of shapes that are seen through instances
+    motion,           ///< instances that move while the shutter is open: a 1-D draw per camera ray
     one_technique,    ///< direct light by light sampling alone or by BSDF sampling alone, for comparisons
 };
-inline constexpr int kEffectCount = 25;
+inline constexpr int kEffectCount = 27;
 
 [[nodiscard]] constexpr std::string_view name(Effect e) noexcept {
-    constexpr std::string_view kNames[kEffectCount] = {"lens",       "light_choice", "area_light", "sphere_light",   "point_light",
-                                                       "environment", "diffuse",      "glossy",     "specular",       "dielectric",
-                                                       "two_sided",  "texture",      "analytic_shape", "shading_normals", "anisotropic",
-                                                       "roulette",   "many_lights",  "mesh_attribute", "lobe",          "layered",
-                                                       "medium",     "heterogeneous", "null_boundary", "mask",          "one_technique"};
+    constexpr std::string_view kNames[kEffectCount] = {
+        "lens",          "light_choice",  "area_light",  "sphere_light",   "point_light", "environment",    "diffuse",
+        "glossy",        "specular",      "dielectric",  "two_sided",      "texture",     "analytic_shape", "shading_normals",
+        "anisotropic",   "roulette",      "many_lights", "mesh_attribute", "lobe",        "layered",        "medium",
+        "heterogeneous", "null_boundary", "mask",        "instancing",     "motion",      "one_technique"};
     return kNames[static_cast<int>(e)];
 }
 

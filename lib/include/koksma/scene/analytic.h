@@ -91,6 +91,43 @@ struct CylinderHit {
     return {};
 }
 
+// Where it is known that a ray meets a shape, but by other roundings than here: as above, and for a ray that narrowly misses, the point of
+// the shape that it passes.
+
+[[nodiscard]] inline double meet(const AnalyticSphere& sphere, const Ray& ray) noexcept {
+    const double t = intersect(sphere, ray);
+    if (t < kInfinity) return t;
+    const Vec3d d = to_double(ray.d);
+    return dot(sphere.center - to_double(ray.o), d) / dot(d, d);
+}
+[[nodiscard]] inline DiskHit meet(const AnalyticDisk& disk, const Ray& ray) noexcept {
+    DiskHit hit = intersect(disk, Ray{ray.o, ray.d, -kInfinity, kInfinity});
+    if (hit.t < kInfinity) return hit;
+    const Vec3d n = cross(disk.s, disk.t), d = to_double(ray.d);
+    const double dn = dot(d, n), nn = dot(n, n);
+    if (dn == 0.0) return hit;
+    hit.t = dot(disk.center - to_double(ray.o), n) / dn;
+    const Vec3d q = to_double(ray.o) + d * hit.t - disk.center;
+    const double x = dot(cross(q, disk.t), n) / nn, y = dot(cross(disk.s, q), n) / nn, r = std::sqrt(x * x + y * y);
+    hit.x = r > 1.0 ? x / r : x;
+    hit.y = r > 1.0 ? y / r : y;
+    return hit;
+}
+[[nodiscard]] inline CylinderHit meet(const AnalyticCylinder& c, const Ray& ray) noexcept {
+    CylinderHit hit = intersect(c, ray);
+    if (hit.t < kInfinity) return hit;
+    const Vec3d d = to_double(ray.d), o = to_double(ray.o) - c.base;
+    const double dx = dot(d, c.s), dy = dot(d, c.t), ox = dot(o, c.s), oy = dot(o, c.t);
+    const double axis2 = dot(c.axis, c.axis), dz = dot(d, c.axis) / axis2, oz = dot(o, c.axis) / axis2;
+    const double a = dx * dx + dy * dy;
+    hit.t = a > 0.0 ? -(dx * ox + dy * oy) / a : 0.0;
+    const double x = ox + dx * hit.t, y = oy + dy * hit.t, r = std::sqrt(x * x + y * y);
+    if (r > 0.0) hit.cosine = x / r, hit.sine = y / r;
+    const double along = oz + dz * hit.t;
+    hit.along = along > 0.0 ? (along < 1.0 ? along : 1.0) : 0.0;
+    return hit;
+}
+
 /// Half extents of the box around a tube, about its middle.
 [[nodiscard]] inline Vec3d reach(const AnalyticCylinder& c) noexcept {
     const auto one = [&](double s, double t, double a) { return c.radius * std::sqrt(s * s + t * t) + 0.5 * std::fabs(a); };

@@ -145,8 +145,8 @@ struct BumpMap {
     float scale = 1.0f;
     Bending bending;
 };
-using OneSidedMaterial = std::variant<Diffuse, Dielectric, Conductor, RoughConductor, ThinDielectric, RoughDielectric, Plastic, RoughPlastic, Principled,
-                                      Blend, Mask, Null, NormalMap, BumpMap>;
+using OneSidedMaterial = std::variant<Diffuse, Dielectric, Conductor, RoughConductor, ThinDielectric, RoughDielectric, Plastic,
+                                      RoughPlastic, Principled, Blend, Mask, Null, NormalMap, BumpMap>;
 
 /// A BSDF. With `two_sided`, `back` is seen from below; without, `back` is empty.
 struct Material {
@@ -183,32 +183,43 @@ using Volume = std::variant<ConstantVolume, GridVolume>;
 
 /// What absorbs and scatters light within a volume.
 struct Medium {
-    bool heterogeneous = false;           ///< varies in space, and ends at the box around its extinction
-    Volume sigma_t = ConstantVolume{};    ///< extinction, m^-1; of a homogeneous medium constant
+    bool heterogeneous = false;                                   ///< varies in space, and ends at the box around its extinction
+    Volume sigma_t = ConstantVolume{};                            ///< extinction, m^-1; of a homogeneous medium constant
     Volume albedo = ConstantVolume{Rgb(0.75f), glm::dmat4(1.0)};  ///< what of the extinction is scattered, [0, 1]
-    double scale = 1.0;                   ///< of the extinction
-    double g = 0.0;                       ///< mean cosine of the Henyey-Greenstein phase function, (-1, 1); 0: isotropic
-    bool sample_emitters = true;          ///< false: light reaches its points by phase function sampling alone
+    double scale = 1.0;                                           ///< of the extinction
+    double g = 0.0;               ///< mean cosine of the Henyey-Greenstein phase function, (-1, 1); 0: isotropic
+    bool sample_emitters = true;  ///< false: light reaches its points by phase function sampling alone
     SourceLocation where;
 };
+
+// ------------------------------------------------------------------------------------------------ motion
+
+/// Where something is at an instant, in the time of the camera's shutter.
+struct Keyframe {
+    double time = 0.0;
+    glm::dmat4 to_world{1.0};
+};
+/// Placements in order of time; empty: at rest. In between, translation and stretch change linearly and the rotation takes the shortest
+/// way at a constant rate; before the first and after the last nothing moves (koksma/scene/animation.h).
+using Animation = std::vector<Keyframe>;
 
 // ------------------------------------------------------------------------------------------------ shapes
 
 /// Colours, or numbers as greys, of vertices or faces.
 struct MeshAttribute {
-    std::string name;           ///< begins with "vertex_" or "face_"
-    std::vector<Rgb> values;    ///< per vertex, or per triangle
+    std::string name;         ///< begins with "vertex_" or "face_"
+    std::vector<Rgb> values;  ///< per vertex, or per triangle
     [[nodiscard]] bool per_face() const noexcept { return name.starts_with("face_"); }
 };
 
 /// A triangle mesh in its own space.
 struct MeshData {
     std::vector<glm::vec3> positions;
-    std::vector<glm::vec3> normals;    ///< per vertex, or empty: faceted (load_scene() computes smooth ones where a file has none)
-    std::vector<glm::vec2> uvs;        ///< per vertex, or empty
+    std::vector<glm::vec3> normals;  ///< per vertex, or empty: faceted (load_scene() computes smooth ones where a file has none)
+    std::vector<glm::vec2> uvs;      ///< per vertex, or empty
     std::vector<std::array<std::uint32_t, 3>> triangles;
     std::vector<MeshAttribute> attributes{};
-    bool faceted = false;              ///< the file asks for no normals
+    bool faceted = false;  ///< the file asks for no normals
 };
 struct MeshShape {
     std::shared_ptr<const MeshData> data;
@@ -237,11 +248,26 @@ struct Shape {
     std::string id;
     Geometry geometry;
     glm::dmat4 to_world{1.0};
+    Animation animation{};  ///< instead of to_world
     bool flip_normals = false;
     bool face_normals = false;
     std::uint32_t material = 0;  ///< index into SceneDescription::materials
     std::optional<AreaEmission> emission;
     std::optional<std::uint32_t> interior, exterior;  ///< indices into SceneDescription::media; with either, the shape is where media end
+    SourceLocation where;
+};
+
+/// Shapes that are seen through instances alone; none of them emits or moves on its own.
+struct ShapeGroup {
+    std::string id;
+    std::vector<Shape> shapes;
+    SourceLocation where;
+};
+/// A group shown somewhere.
+struct Instance {
+    std::uint32_t group = 0;  ///< index into SceneDescription::groups
+    glm::dmat4 to_world{1.0};
+    Animation animation{};  ///< instead of to_world
     SourceLocation where;
 };
 
@@ -255,9 +281,9 @@ struct PointLight {
 /// A point that shines along its own +z, fully within the beam's half angle, then falling off linearly in the angle to the cutoff.
 struct SpotLight {
     glm::dmat4 to_world{1.0};
-    Rgb intensity{1.0f};  ///< W sr^-1, within the beam
+    Rgb intensity{1.0f};                                ///< W sr^-1, within the beam
     double cutoff_degrees = 20.0, beam_degrees = 15.0;  ///< half angles
-    std::optional<Texture> texture;  ///< a factor; its unit square spans the cone of the cutoff
+    std::optional<Texture> texture;                     ///< a factor; its unit square spans the cone of the cutoff
     SourceLocation where;
 };
 /// Parallel light from infinity.
@@ -298,11 +324,13 @@ struct Camera {
     glm::dmat4 to_world{1.0};     ///< camera looks along its +z, +x is left in the image (Mitsuba's frame)
     double fov_x_degrees = 50.0;  ///< horizontal, of the full film (fov_axis is resolved by the loader)
     bool orthographic = false;    ///< parallel rays from [-1, 1] x [-1, 1] height / width of the camera's own plane; to_world may scale
-    double near_clip = 1e-2, far_clip = 1e4;   ///< distances along the camera's z
-    double aperture_radius = 0.0;              ///< 0: pinhole
-    double focus_distance = 1e4;               ///< distance along z of the plane in focus
-    std::optional<std::uint32_t> medium;       ///< that the camera is in, index into SceneDescription::media
-    glm::dvec2 principal_point_offset{0.0};    ///< in fractions of the full film: film position (x, y) sees what (x, y) + offset saw without it
+    double near_clip = 1e-2, far_clip = 1e4;  ///< distances along the camera's z
+    double aperture_radius = 0.0;             ///< 0: pinhole
+    double focus_distance = 1e4;              ///< distance along z of the plane in focus
+    std::optional<std::uint32_t> medium;      ///< that the camera is in, index into SceneDescription::media
+    glm::dvec2 principal_point_offset{
+        0.0};  ///< in fractions of the full film: film position (x, y) sees what (x, y) + offset saw without it
+    double shutter_open = 0.0, shutter_close = 0.0;  ///< instants; equal: everything stands where it is then
     SourceLocation where;
 };
 
@@ -335,7 +363,7 @@ struct IntegratorSettings {
     /// which there is vacuum everywhere and passing on is a bounce.
     bool volumetric = false;
     Technique technique = Technique::both;
-    std::string moments;          ///< name under which moments of the samples are written beside the image; empty: none are kept
+    std::string moments;  ///< name under which moments of the samples are written beside the image; empty: none are kept
 };
 
 /// The whole of a scene file.
@@ -344,16 +372,19 @@ struct SceneDescription {
     std::vector<Material> materials;  ///< [0] is the default diffuse of reflectance 0.5
     std::vector<Medium> media;
     std::vector<Shape> shapes;
+    std::vector<ShapeGroup> groups;
+    std::vector<Instance> instances;
     std::vector<PointLight> point_lights;
     std::vector<DeltaLight> delta_lights;
     std::optional<Environment> environment;
     Camera camera;
     FilmSettings film;
     IntegratorSettings integrator;
-    std::string sampler;          ///< our name of the sampler that the file asks for; empty when it names none of ours
-    std::uint64_t spp = 4;        ///< sample_count of the file
+    std::string sampler;    ///< our name of the sampler that the file asks for; empty when it names none of ours
+    std::uint64_t spp = 4;  ///< sample_count of the file
     std::uint64_t seed = 0;
-    std::uint64_t hash = 0;       ///< of everything that can change the expected image, film size too; not of crop, rr_depth, sampler, spp or seed
+    std::uint64_t hash =
+        0;  ///< of everything that can change the expected image, film size too; not of crop, rr_depth, sampler, spp or seed
     std::string purpose, expect;  ///< from the header comment of built-in scenes ("purpose: ...", "expect: ..."); may be empty
 };
 

@@ -14,6 +14,7 @@ inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
 struct Ray {
     Vec3f o, d;
     float t_near = 0.0f, t_far = kInfinity;
+    float time = 0.0f;  ///< within the shutter's interval, [0, 1)
 };
 
 /// What a ray met: ids only. Everything else is recomputed from the vertices, since Embree's t, u, v depend on the CPU's
@@ -21,6 +22,7 @@ struct Ray {
 struct Hit {
     static constexpr std::uint32_t kNone = 0xffffffffu;
     std::uint32_t geometry = kNone, primitive = kNone;
+    std::uint32_t instance = kNone;  ///< index into Scene::instances of what the geometry is seen through
     [[nodiscard]] constexpr bool valid() const noexcept { return geometry != kNone; }
 };
 

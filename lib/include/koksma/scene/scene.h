@@ -11,6 +11,7 @@
 #include <koksma/scene/environment_map.h>
 #include <koksma/scene/light_tree.h>
 #include <koksma/scene/medium/medium_record.h>
+#include <koksma/scene/placement.h>
 #include <koksma/scene/texture.h>
 
 #include <map>
@@ -46,33 +47,49 @@ struct AttributeSlot {
     float scale = 1.0f;
 };
 
-/// One per Embree geometry.
+/// One per shape: those of the description, then those of its groups.
 struct GeometryRecord {
     GeometryKind kind = GeometryKind::mesh;
-    bool flip = false;         ///< normals point the other way
+    bool flip = false;  ///< normals point the other way
     bool has_normals = false, has_uvs = false;
-    std::uint32_t first = 0;   ///< mesh: its first entry in Scene::triangles; otherwise the index in spheres or disks
+    std::uint32_t first = 0;  ///< mesh: its first entry in Scene::triangles; otherwise the index in spheres or disks
     std::uint32_t material = 0;
-    std::int32_t light = -1;   ///< index into Scene::lights
+    std::int32_t light = -1;  ///< index into Scene::lights
+};
+
+/// Geometries in a space of their own.
+struct GroupRecord {
+    std::uint32_t first_geometry = 0, geometry_count = 0;
+    Vec3d origin;         ///< of its own space, in that of the description: the middle of the shapes
+    double radius = 0.0;  ///< of a ball about the own origin that holds them
+};
+
+/// A group seen somewhere. It moves if it has more than one placement.
+struct InstanceRecord {
+    std::uint32_t first_geometry = 0;                        ///< the group's
+    std::uint32_t first_placement = 0, placement_count = 1;  ///< in Scene::placements, at equal distances in the time of the shutter
+    Placement to_own;                                        ///< inverse of the placement, at rest
+    PlacementError error;                                    ///< at all times
 };
 
 enum class LightKind : std::int32_t { mesh, parallelogram, sphere, disk, point, environment, cylinder, spot, projector, directional };
 
 /// What a spot or a projector is besides a position.
 struct Beam {
-    Vec3f right, up, forward;  ///< rows of world to light: their dot products with a direction are its own x, y, z
-    Vec3f axis;                ///< unit, world: where it shines
+    Vec3f right, up, forward;                     ///< rows of world to light: their dot products with a direction are its own x, y, z
+    Vec3f axis;                                   ///< unit, world: where it shines
     float half_width = 1.0f, half_height = 1.0f;  ///< of the picture at distance 1
     float cutoff = 0.0f, cos_cutoff = 1.0f, cos_beam = 1.0f, inverse_transition = 0.0f;  ///< of a spot; radians
-    bool pictured = false;  ///< the spot has a texture
+    bool pictured = false;                                                               ///< the spot has a texture
 };
 
 struct Light {
     LightKind kind = LightKind::point;
-    std::uint32_t geometry = 0;    ///< of surfaces; of spots and projectors, the index in Scene::beams
-    TextureRef radiance;           ///< or intensity, or constant environment
-    Vec3f corner, edge_u, edge_v;  ///< parallelogram; `corner` is also the position of a point, spot or projector, or the unit vector to a directional light
-    float area = 0.0f;             ///< m^2
+    std::uint32_t geometry = 0;  ///< of surfaces; of spots and projectors, the index in Scene::beams
+    TextureRef radiance;         ///< or intensity, or constant environment
+    Vec3f corner, edge_u,
+        edge_v;  ///< parallelogram; `corner` is also the position of a point, spot or projector, or the unit vector to a directional light
+    float area = 0.0f;               ///< m^2
     DiscreteDistribution triangles;  ///< of a mesh, by area
 
     /// m^2 of a triangle of a mesh, or of the whole.
@@ -86,7 +103,7 @@ struct Scene {
     SceneDescription description;  ///< meshes and images are shared with it, not copied
     CompiledCamera camera;
     FilmSettings film;
-    EffectSet effects;             ///< what it calls for, roulette and settings aside
+    EffectSet effects;  ///< what it calls for, roulette and settings aside
 
     std::vector<Texture> textures;
     std::vector<MaterialSide> sides;
@@ -94,6 +111,10 @@ struct Scene {
     std::vector<MaterialSides> materials;
 
     std::vector<GeometryRecord> geometries;
+    std::vector<GroupRecord> groups;
+    std::vector<InstanceRecord> instances;
+    std::uint32_t first_instance = 0;   ///< its id in the accelerator
+    std::vector<Placement> placements;  ///< own space of a group to the scene's; entries are floats
     std::vector<Vec3f> positions, normals;
     std::vector<glm::vec2> uvs;
     std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices into positions, normals and uvs alike
@@ -106,7 +127,7 @@ struct Scene {
 
     std::vector<MediumRecord> media;
     std::vector<MediumBoundary> boundaries;  ///< by geometry; empty without media
-    std::int32_t camera_medium = -1;    ///< that the camera is in
+    std::int32_t camera_medium = -1;         ///< that the camera is in
 
     std::vector<Light> lights;
     std::vector<Beam> beams;
@@ -123,6 +144,9 @@ struct Scene {
             if (set.has(static_cast<Effect>(i))) called_for.try_emplace(static_cast<Effect>(i), where);
     }
 };
+
+/// The shape of an entry of Scene::geometries.
+[[nodiscard]] const Shape& shape_of(const SceneDescription& compiled, std::uint32_t geometry) noexcept;
 
 /// Checks, re-centres, flattens and builds the BVH.
 /// @throws Error "file:line:column: ..." for what cannot be rendered

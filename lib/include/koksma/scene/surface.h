@@ -1,6 +1,7 @@
 #pragma once
 // The point that a ray met, recomputed from the scene's own data.
 
+#include <koksma/scene/instance.h>
 #include <koksma/scene/scene.h>
 #include <koksma/scene/triangle.h>
 
@@ -10,13 +11,15 @@
 namespace koksma {
 
 struct Surface {
-    Vec3f p;             ///< in the plane of the triangle (a convex combination of its vertices) or on the shape
-    Vec3f p_error;       ///< bound of the absolute error of each coordinate
-    Vec3f ng;            ///< geometric normal, unit, on the side that the shape calls front
-    Vec3f n;             ///< shading normal: interpolated where the mesh has normals
-    SurfaceUv uv;        ///< only where an effect looks at it
-    Vec3f dpdu{0.0f};    ///< direction in which u grows, up to its length; only for anisotropic materials, and zero without UVs
+    Vec3f p;           ///< in the plane of the triangle (a convex combination of its vertices) or on the shape
+    Vec3f p_error;     ///< bound of the absolute error of each coordinate
+    Vec3f ng;          ///< geometric normal, unit, on the side that the shape calls front
+    Vec3f n;           ///< shading normal: interpolated where the mesh has normals
+    SurfaceUv uv;      ///< only where an effect looks at it
+    Vec3f dpdu{0.0f};  ///< direction in which u grows, up to its length; only for anisotropic materials, and zero without UVs
     std::uint32_t geometry = 0, primitive = 0;
+    std::uint32_t instance = Hit::kNone;
+    float time = 0.0f;  ///< of the ray, where it met an instance
 };
 
 namespace detail {
@@ -53,17 +56,19 @@ struct RefinedPoint {
     return best;
 }
 
-/// Where the ray meets the plane of a triangle, in double; the nearest point of the triangle where that is beyond it by more than Embree's own
-/// rounding, as with slivers of which Embree says that a ray nearly in their plane hits them while it passes by.
+/// Where the ray meets the plane of a triangle, in double; the nearest point of the triangle where that is beyond it by more than Embree's
+/// own rounding, as with slivers of which Embree says that a ray nearly in their plane hits them while it passes by.
 /// @return  the point given, where the ray lies in the plane
 [[nodiscard]] inline RefinedPoint refined_point(Vec3f v0, Vec3f v1, Vec3f v2, Vec3f o, Vec3f d, RefinedPoint coarse) noexcept {
-    const Vec3d origin = to_double(o), a = to_double(v0) - origin, b = to_double(v1) - origin, c = to_double(v2) - origin, direction = to_double(d);
+    const Vec3d origin = to_double(o), a = to_double(v0) - origin, b = to_double(v1) - origin, c = to_double(v2) - origin,
+                direction = to_double(d);
     const double w0 = dot(direction, cross(c, b)), w1 = dot(direction, cross(a, c)), w2 = dot(direction, cross(b, a)), sum = w0 + w1 + w2;
     if (sum == 0.0) return coarse;
     Vec3d q = (a * w0 + b * w1 + c * w2) * (1.0 / sum);
     if (!(w0 * sum >= 0.0 && w1 * sum >= 0.0 && w2 * sum >= 0.0)) {
         const Vec3d inside = nearest_on_border(a, b, c, q);
-        const double rounding = double{error_gamma(16)} * std::sqrt(std::max({dot(a, a), dot(b, b), dot(c, c)})) + max_component(coarse.p_error);
+        const double rounding =
+            double{error_gamma(16)} * std::sqrt(std::max({dot(a, a), dot(b, b), dot(c, c)})) + max_component(coarse.p_error);
         if (!(length(q - inside) <= rounding)) q = inside;
     }
     const Vec3f p = to_float(origin + q);
@@ -91,7 +96,8 @@ template <EffectSet kEffects>
     s.p_error = point.p_error;
     s.ng = s.n = is_needle(v0, v1, v2) ? normal_of_needle(v0, v1, v2, point.ng) : point.ng;
     if constexpr (kEffects.has(Effect::shading_normals))
-        if (g.has_normals) s.n = interpolated_normal(scene.normals[index[0]], scene.normals[index[1]], scene.normals[index[2]], point.b0, b, s.ng);
+        if (g.has_normals)
+            s.n = interpolated_normal(scene.normals[index[0]], scene.normals[index[1]], scene.normals[index[2]], point.b0, b, s.ng);
     if (g.flip) {
         s.ng = -s.ng;
         s.n = -s.n;
@@ -169,22 +175,30 @@ template <EffectSet kEffects>
     return s;
 }
 
-/// @param hit  what the accelerator answered for this ray
-template <EffectSet kEffects>
-[[nodiscard]] Surface surface_at(const Scene& scene, const Ray& ray, Hit hit) noexcept {
+namespace detail {
+
+/// @tparam kSure  the ray is not quite the one that the accelerator had
+template <EffectSet kEffects, bool kSure>
+[[nodiscard]] Surface own_surface_at(const Scene& scene, const Ray& ray, Hit hit) noexcept {
+    const auto where = [&](const auto& shape) {
+        if constexpr (kSure)
+            return meet(shape, ray);
+        else
+            return intersect(shape, ray);
+    };
     const GeometryRecord& g = scene.geometries[hit.geometry];
     if constexpr (kEffects.has(Effect::analytic_shape)) {
         if (g.kind == GeometryKind::sphere) {
             const AnalyticSphere& sphere = scene.spheres[g.first];
-            const double t = intersect(sphere, ray);
+            const double t = where(sphere);
             return sphere_surface<kEffects>(scene, hit.geometry, to_double(ray.o) + to_double(ray.d) * t - sphere.center);
         }
         if (g.kind == GeometryKind::disk) {
-            const DiskHit d = intersect(scene.disks[g.first], ray);
+            const DiskHit d = where(scene.disks[g.first]);
             return disk_surface<kEffects>(scene, hit.geometry, d.x, d.y);
         }
         if (g.kind == GeometryKind::cylinder) {
-            const CylinderHit c = intersect(scene.cylinders[g.first], ray);
+            const CylinderHit c = where(scene.cylinders[g.first]);
             return cylinder_surface<kEffects>(scene, hit.geometry, c.cosine, c.sine, c.along);
         }
     }
@@ -198,6 +212,40 @@ template <EffectSet kEffects>
         s.p_error = r.p_error;
     }
     return s;
+}
+
+/// A point of a group, found in the group's own space and brought to the scene's with its bound.
+template <EffectSet kEffects>
+[[nodiscard]] Surface instanced_surface_at(const Scene& scene, const Ray& ray, Hit hit) noexcept {
+    const InstanceRecord& instance = scene.instances[hit.instance];
+    const Transfer transfer = transfer_at<kEffects>(scene, instance, ray.time);
+    const Ray own{to_float(point_by(transfer.to_own, to_double(ray.o))), to_float(vector_by(transfer.to_own, to_double(ray.d))), ray.t_near,
+                  ray.t_far};
+    Surface s = own_surface_at<kEffects, true>(scene, own, hit);
+    const auto unit = [&](Vec3f n) {
+        const Vec3d v = normal_by_inverse(transfer.to_own, to_double(n));
+        return to_float(v * (1.0 / std::sqrt(dot(v, v))));
+    };
+    const Vec3d p = point_by(transfer.to_scene, to_double(s.p));
+    s.p = to_float(p);
+    s.p_error = to_float(bound_by(transfer.to_scene, to_double(s.p_error)) + instance.error.at(p)) + abs(s.p) * error_gamma(1);
+    const bool one_normal = s.n == s.ng;
+    s.ng = unit(s.ng);
+    s.n = one_normal ? s.ng : unit(s.n);
+    if constexpr (kEffects.has(Effect::anisotropic)) s.dpdu = to_float(vector_by(transfer.to_scene, to_double(s.dpdu)));
+    s.instance = hit.instance;
+    s.time = ray.time;
+    return s;
+}
+
+}  // namespace detail
+
+/// @param hit  what closest_hit() answered for this ray
+template <EffectSet kEffects>
+[[nodiscard]] Surface surface_at(const Scene& scene, const Ray& ray, Hit hit) noexcept {
+    if constexpr (kEffects.has(Effect::instancing))
+        if (hit.instance != Hit::kNone) return detail::instanced_surface_at<kEffects>(scene, ray, hit);
+    return detail::own_surface_at<kEffects, false>(scene, ray, hit);
 }
 
 namespace detail {
@@ -220,7 +268,8 @@ template <EffectSet kEffects>
         if (ref.index >= 0) {
             const auto index = static_cast<std::size_t>(ref.index);
             if constexpr (kEffects.has(Effect::mesh_attribute))
-                if (const AttributeSlot& slot = scene.attribute_slots[index]; slot.index >= 0) return detail::attribute_value(scene, slot, uv);
+                if (const AttributeSlot& slot = scene.attribute_slots[index]; slot.index >= 0)
+                    return detail::attribute_value(scene, slot, uv);
             return lookup(scene.textures[index], {uv.x, uv.y});
         }
     return ref.constant;
@@ -267,7 +316,7 @@ template <EffectSet kEffects>
             out.frame.t = -out.frame.t;
         }
     out.bsdf = bsdf_of<kEffects>(scene, scene.sides[side_index], s.uv);
-    if constexpr (kEffects.has(Effect::layered)) out.layered = {side_index, s.uv, s.n, s.geometry, s.primitive};
+    if constexpr (kEffects.has(Effect::layered)) out.layered = {side_index, s.uv, s.n, s.geometry, s.primitive, s.instance, s.time};
     return out;
 }
 

@@ -35,8 +35,9 @@ struct Context {
     std::map<std::string, MeshFile> meshes;
     std::map<std::pair<std::string, bool>, std::shared_ptr<const Image>> images;  ///< by file and `raw`
     std::set<const Element*> attached_emitters;
-    std::map<const Element*, std::uint32_t> media{};  ///< medium elements already in scene.media
+    std::map<const Element*, std::uint32_t> media{};                   ///< medium elements already in scene.media
     std::map<std::string, std::shared_ptr<const VolumeGrid>> grids{};  ///< by file
+    std::map<const Element*, std::uint32_t> groups;                    ///< shapegroup elements already in scene.groups
 };
 
 }  // namespace koksma::loader

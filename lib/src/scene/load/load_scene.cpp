@@ -32,7 +32,8 @@ const Element* only(const XmlDocument& document, std::string_view tag) {
 }
 
 void check_tags(const XmlDocument& document) {
-    const std::vector<std::string> tags{"default", "include", "path", "alias", "integrator", "sensor", "bsdf", "texture", "medium", "phase", "volume", "shape", "emitter"};
+    const std::vector<std::string> tags{"default", "include", "path",  "alias",  "integrator", "sensor", "bsdf",
+                                        "texture", "medium",  "phase", "volume", "shape",      "emitter"};
     for (const Element& e : document.elements)
         if (std::find(tags.begin(), tags.end(), e.tag) == tags.end())
             fail(e.where, "<{}> is not supported in <scene>; {}supported: {}", e.tag, did_you_mean(e.tag, tags), list_of(tags));
@@ -44,6 +45,7 @@ void check_unused(const XmlDocument& document, Context& context) {
         if (e.tag == "bsdf" && !context.materials.contains(&e)) (void)parse_material(e, context);
         if (e.tag == "texture") (void)parse_texture(e, ColorUse::any, context);
         check_medium_object(e, context);
+        if (e.tag == "shape" && e.required("type") == "shapegroup" && !context.groups.contains(&e)) (void)parse_group(e, context);
         if (e.tag == "emitter" && e.required("type") == "area" && !context.attached_emitters.contains(&e))
             fail(e.where, "this area emitter is not attached to a shape; put it, or a <ref> to it, in a <shape>");
     }
@@ -60,7 +62,7 @@ SceneDescription load_scene(const std::filesystem::path& file, const SceneParame
     scene.materials.emplace_back();
     read_header_comment(document.comment, scene);
 
-    Context context{scene, {}, document.search, {}, {}, {}, {}, {}};
+    Context context{scene, {}, document.search, {}, {}, {}, {}, {}, {}};
     check_tags(document);
     collect_ids(document.elements, context.ids);
     if (const Element* integrator = only(document, "integrator")) read_integrator(*integrator, context);

@@ -11,9 +11,9 @@
 namespace koksma::loader {
 namespace {
 
-constexpr std::array<std::string_view, 9> kParameterTags{"float",    "integer", "boolean", "string",   "rgb",
-                                                         "spectrum", "point",   "vector",  "transform"};
-constexpr std::array<std::string_view, 12> kObjectTags{"bsdf", "texture", "shape",      "emitter", "sensor", "film",
+constexpr std::array<std::string_view, 10> kParameterTags{"float",    "integer", "boolean", "string",    "rgb",
+                                                          "spectrum", "point",   "vector",  "transform", "animation"};
+constexpr std::array<std::string_view, 12> kObjectTags{"bsdf",    "texture",    "shape",   "emitter", "sensor", "film",
                                                        "sampler", "integrator", "rfilter", "medium",  "phase",  "volume"};
 
 bool is_parameter(std::string_view tag) { return std::find(kParameterTags.begin(), kParameterTags.end(), tag) != kParameterTags.end(); }
@@ -180,6 +180,12 @@ glm::dvec3 Properties::point(const std::string& name, const glm::dvec3& default_
 glm::dmat4 Properties::transform(const std::string& name) {
     const Child* child = take(name, {"transform"}, "a <transform>");
     return child ? parse_transform(*child->written) : glm::dmat4(1.0);
+}
+
+Animation Properties::placements(const std::string& name) {
+    const Child* child = take(name, {"transform", "animation"}, "a <transform> or an <animation>");
+    if (!child) return {{0.0, glm::dmat4(1.0)}};
+    return child->written->tag == "animation" ? parse_animation(*child->written) : Animation{{0.0, parse_transform(*child->written)}};
 }
 
 const Element* Properties::value(const std::string& name) {

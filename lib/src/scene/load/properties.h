@@ -43,6 +43,8 @@ public:
     [[nodiscard]] std::string choice(const std::string& name, const std::string& default_value, const std::vector<std::string>& values);
     [[nodiscard]] glm::dvec3 point(const std::string& name, const glm::dvec3& default_value);
     [[nodiscard]] glm::dmat4 transform(const std::string& name);
+    /// A <transform> at time 0, or an <animation>; of what has none, at rest where it is.
+    [[nodiscard]] Animation placements(const std::string& name);
     /// A colour or a texture, <ref>s followed; nullptr if it is absent.
     [[nodiscard]] const Element* value(const std::string& name);
     /// A colour or a volume, <ref>s followed; nullptr if it is absent.

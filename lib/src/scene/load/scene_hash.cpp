@@ -50,8 +50,14 @@ public:
         h_.word(scene_.environment ? 1 + scene_.environment->index() : 0);
         if (scene_.environment) std::visit([this](const auto& e) { add(e); }, *scene_.environment);
         // What came later is in the hash only where it is used, so that the hash of an older scene stays.
-        for (const DeltaLight& l : scene_.delta_lights) h_.word(0x64656C7461u + l.index()), std::visit([this](const auto& e) { add(e); }, l);
+        for (const DeltaLight& l : scene_.delta_lights)
+            h_.word(0x64656C7461u + l.index()), std::visit([this](const auto& e) { add(e); }, l);
         if (!scene_.film.filter.is_pixel()) add(scene_.film.filter);
+        for (const ShapeGroup& g : scene_.groups) {
+            h_.word(0x67726F7570u), h_.word(g.shapes.size());
+            for (const Shape& s : g.shapes) add(s);
+        }
+        for (const Instance& i : scene_.instances) h_.word(0x696E7374u), h_.word(i.group), h_.matrix<4>(i.to_world), add(i.animation);
         add(scene_.camera);
         h_.word(static_cast<std::uint64_t>(scene_.film.width)), h_.word(static_cast<std::uint64_t>(scene_.film.height));
         h_.word(static_cast<std::uint64_t>(std::int64_t{scene_.integrator.max_depth}));
@@ -76,6 +82,7 @@ private:
             if (s.interior) h_.word(0x696E74), add(scene_.media.at(*s.interior));
             if (s.exterior) h_.word(0x657874), add(scene_.media.at(*s.exterior));
         }
+        add(s.animation);
     }
     void add(const Medium& m) {
         h_.word(m.heterogeneous), h_.word(m.sample_emitters), h_.number(m.scale), h_.number(m.g);
@@ -89,6 +96,11 @@ private:
             for (const float x : v.grid->values) h.number(static_cast<double>(x));
         }));
         h_.word(static_cast<std::uint64_t>(v.filter)), h_.word(static_cast<std::uint64_t>(v.wrap)), h_.matrix<4>(v.to_world);
+    }
+    void add(const Animation& animation) {
+        if (animation.empty()) return;
+        h_.word(animation.size()), h_.number(scene_.camera.shutter_open), h_.number(scene_.camera.shutter_close);
+        for (const Keyframe& k : animation) h_.number(k.time), h_.matrix<4>(k.to_world);
     }
     void add(const RectangleShape&) {}
     void add(const DiskShape&) {}
@@ -160,13 +172,14 @@ private:
         add(p.diffuse_reflectance), add(p.specular_reflectance);
     }
     void add(const RoughPlastic& p) {
-        h_.floats(p.int_ior, p.ext_ior), h_.floats(p.alpha, 0.0f), h_.word(p.nonlinear), h_.word(static_cast<std::uint64_t>(p.distribution));
+        h_.floats(p.int_ior, p.ext_ior), h_.floats(p.alpha, 0.0f), h_.word(p.nonlinear),
+            h_.word(static_cast<std::uint64_t>(p.distribution));
         add(p.diffuse_reflectance), add(p.specular_reflectance);
     }
     void add(const Principled& p) {
         h_.floats(p.eta, 0.0f);  // sampling rates change no expected image
-        for (const Texture* t : {&p.base_color, &p.roughness, &p.anisotropic, &p.metallic, &p.spec_trans, &p.spec_tint, &p.sheen, &p.sheen_tint, &p.flatness,
-                                 &p.clearcoat, &p.clearcoat_gloss})
+        for (const Texture* t : {&p.base_color, &p.roughness, &p.anisotropic, &p.metallic, &p.spec_trans, &p.spec_tint, &p.sheen,
+                                 &p.sheen_tint, &p.flatness, &p.clearcoat, &p.clearcoat_gloss})
             add(*t);
     }
     void add(const Bending& b) { h_.word(b.flip_invalid_normals), h_.word(b.use_shadowing_function), add(b.nested); }

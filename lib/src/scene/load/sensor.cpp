@@ -59,10 +59,11 @@ void read_lens(Properties& p, Camera& camera) {
     }
 }
 
-void check_shutter(Properties& p) {
-    const double open = p.number("shutter_open", 0.0), close = p.number("shutter_close", 0.0);
-    if (open != close)
-        fail(p.where("shutter_close"), "the shutter is open from {} to {}; motion is not supported, so both must be equal", open, close);
+void read_shutter(Properties& p, Camera& camera) {
+    camera.shutter_open = p.number("shutter_open", 0.0);
+    camera.shutter_close = p.number("shutter_close", 0.0);
+    if (!(camera.shutter_close >= camera.shutter_open))
+        fail(p.where("shutter_close"), "the shutter closes at {}, before it opens at {}", camera.shutter_close, camera.shutter_open);
 }
 
 }  // namespace
@@ -106,7 +107,7 @@ void read_sensor(const Element& element, Context& context) {
         read_clip(p, camera);
         read_lens(p, camera);
     }
-    check_shutter(p);
+    read_shutter(p, camera);
     if (const Element* medium = p.object("medium")) camera.medium = medium_of(*medium, context);
     if (const Element* sampler = p.object("sampler")) read_sampler(*sampler, context);
     p.finish();

@@ -23,7 +23,8 @@ namespace koksma::loader {
 namespace {
 
 /// @param index  of a mesh in a serialized file
-MeshFile& mesh_file(const std::filesystem::path& file, const std::string& type, std::int64_t index, const SourceLocation& where, Context& context) {
+MeshFile& mesh_file(const std::filesystem::path& file, const std::string& type, std::int64_t index, const SourceLocation& where,
+                    Context& context) {
     MeshFile& mesh = context.meshes[file.string() + '@' + std::to_string(index)];
     if (mesh.as_written) return mesh;
     try {
@@ -118,7 +119,8 @@ void bounds(const Geometry& geometry, glm::dvec3& low, glm::dvec3& high) {
     low = glm::dvec3(-1.0), high = glm::dvec3(1.0);
     if (const auto* sphere = std::get_if<SphereShape>(&geometry))
         low = sphere->center - sphere->radius, high = sphere->center + sphere->radius;
-    if (const auto* c = std::get_if<CylinderShape>(&geometry)) low = glm::min(c->p0, c->p1) - c->radius, high = glm::max(c->p0, c->p1) + c->radius;
+    if (const auto* c = std::get_if<CylinderShape>(&geometry))
+        low = glm::min(c->p0, c->p1) - c->radius, high = glm::max(c->p0, c->p1) + c->radius;
     if (const auto* mesh = std::get_if<MeshShape>(&geometry)) {
         low = high = glm::dvec3(mesh->data->positions.front());
         for (const glm::vec3& v : mesh->data->positions)
@@ -126,28 +128,28 @@ void bounds(const Geometry& geometry, glm::dvec3& low, glm::dvec3& high) {
     }
 }
 
-void check_placement(const Properties& p, const Shape& shape) {
-    const double determinant = glm::determinant(glm::dmat3(shape.to_world));
+void check_placement(const Properties& p, const Geometry& geometry, const glm::dmat4& to_world) {
+    const double determinant = glm::determinant(glm::dmat3(to_world));
     if (determinant == 0.0 || !std::isfinite(1.0 / determinant))
         fail(p.where("to_world"), "'to_world' of {} cannot be inverted; does it scale by 0?", p.type());
     glm::dvec3 low, high;
-    bounds(shape.geometry, low, high);
+    bounds(geometry, low, high);
     for (int corner = 0; corner < 8; ++corner) {
         const glm::dvec4 own(corner & 1 ? low.x : high.x, corner & 2 ? low.y : high.y, corner & 4 ? low.z : high.z, 1.0);
-        const glm::dvec4 world = shape.to_world * own;
+        const glm::dvec4 world = to_world * own;
         if (!(std::max({std::abs(world.x), std::abs(world.y), std::abs(world.z)}) <= double(kMaxCoordinate)))
             fail(p.where("to_world"), "{} reaches beyond {} in world space", p.type(), kMaxCoordinate);
     }
 }
 
-}  // namespace
+const std::vector<std::string> kSimpleTypes{"obj", "ply", "serialized", "rectangle", "disk", "cube", "sphere", "cylinder"};
 
-void read_shape(const Element& element, Context& context) {
-    Properties p(element, context.ids, {"obj", "ply", "serialized", "rectangle", "disk", "cube", "sphere", "cylinder"});
+Shape parse_simple(Properties& p, Context& context) {
     Shape shape;
     shape.id = p.id();
     shape.where = p.where();
-    shape.to_world = p.transform("to_world");
+    shape.animation = p.placements("to_world");
+    shape.to_world = shape.animation.front().to_world;
     shape.flip_normals = p.boolean("flip_normals", false);
     if (p.type() != "sphere" && p.type() != "disk" && p.type() != "cylinder") shape.face_normals = p.boolean("face_normals", false);
     shape.geometry = read_geometry(p, shape.to_world, shape.face_normals, context);
@@ -157,10 +159,73 @@ void read_shape(const Element& element, Context& context) {
     p.finish();
     if (interior) shape.interior = medium_of(*interior, context);
     if (exterior) shape.exterior = medium_of(*exterior, context);
-    check_placement(p, shape);
+    for (const Keyframe& k : shape.animation) check_placement(p, shape.geometry, k.to_world);
+    if (shape.animation.size() == 1) shape.animation.clear();
     if (emitter) shape.emission = read_area_emission(*emitter, context);
     shape.material = bsdf ? material_of(*bsdf, context) : emitter ? black_material(context) : 0;
-    context.scene.shapes.push_back(std::move(shape));
+    return shape;
+}
+
+/// The group's place in the scene; read when an instance first asks for it.
+std::uint32_t group_of(const Element& element, Context& context) {
+    const auto known = context.groups.find(&element);
+    if (known != context.groups.end()) return known->second;
+    ShapeGroup group = parse_group(element, context);
+    const auto index = static_cast<std::uint32_t>(context.scene.groups.size());
+    context.scene.groups.push_back(std::move(group));
+    context.groups.emplace(&element, index);
+    return index;
+}
+
+Instance parse_instance(Properties& p, Context& context) {
+    Instance instance;
+    instance.where = p.where();
+    instance.animation = p.placements("to_world");
+    instance.to_world = instance.animation.front().to_world;
+    const Element* group = p.object("shape");
+    p.finish();
+    if (!group) fail(p.where(), "an instance needs a shapegroup, nested or by <ref>");
+    if (group->required("type") != "shapegroup") fail(group->where, "an instance takes a shapegroup, found '{}'", group->required("type"));
+    instance.group = group_of(*group, context);
+    for (const Keyframe& k : instance.animation)
+        for (const Shape& s : context.scene.groups[instance.group].shapes) check_placement(p, s.geometry, k.to_world * s.to_world);
+    if (instance.animation.size() == 1) instance.animation.clear();
+    return instance;
+}
+
+}  // namespace
+
+ShapeGroup parse_group(const Element& element, Context& context) {
+    Properties p(element, context.ids, {"shapegroup"});
+    ShapeGroup group;
+    group.id = p.id();
+    group.where = p.where();
+    const auto members = p.objects("shape");
+    p.finish();
+    if (members.empty()) fail(p.where(), "a shapegroup needs a shape");
+    for (const Element* member : members) {
+        const std::string& type = member->required("type");
+        if (type == "instance" || type == "shapegroup")
+            fail(member->where, "'{}' inside a shapegroup: groups are not nested, as in Mitsuba", type);
+        Properties own(*member, context.ids, kSimpleTypes);
+        if (own.is("to_world", "animation"))
+            fail(own.where("to_world"), "a shape of a group cannot move on its own; animate its instances");
+        Shape shape = parse_simple(own, context);
+        if (shape.emission) fail(shape.emission->where, "a shape of a shapegroup cannot emit, as in Mitsuba");
+        group.shapes.push_back(std::move(shape));
+    }
+    return group;
+}
+
+void read_shape(const Element& element, Context& context) {
+    std::vector<std::string> types = kSimpleTypes;
+    types.insert(types.end(), {"shapegroup", "instance"});
+    Properties p(element, context.ids, types);
+    if (p.type() == "shapegroup") return;
+    if (p.type() == "instance")
+        context.scene.instances.push_back(parse_instance(p, context));
+    else
+        context.scene.shapes.push_back(parse_simple(p, context));
 }
 
 }  // namespace koksma::loader

@@ -4,6 +4,7 @@
 #include "numbers.h"
 
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 
 #include <cmath>
 #include <numbers>
@@ -116,20 +117,7 @@ glm::dmat4 look_at(const Element& e) {
     return {glm::dvec4(left, 0.0), glm::dvec4(glm::cross(dir, left), 0.0), glm::dvec4(dir, 0.0), glm::dvec4(origin, 1.0)};
 }
 
-}  // namespace
-
-glm::dvec3 parse_point(const Element& element) {
-    element.allow_attributes({"name", "value", "x", "y", "z"});
-    element.allow_no_children();
-    if (!element.find("value"))
-        for (const char* axis : {"x", "y", "z"}) (void)element.required(axis);
-    else
-        (void)finite_numbers(element, "value", 3);
-    return xyz(element, 0.0);
-}
-
-glm::dmat4 parse_transform(const Element& element) {
-    element.allow_attributes({"name"});
+glm::dmat4 steps_of(const Element& element) {
     glm::dmat4 m(1.0);
     for (const Element& step : element.children) {
         step.allow_no_children();
@@ -147,6 +135,40 @@ glm::dmat4 parse_transform(const Element& element) {
             fail(step.where, "<{}> is not a transformation; supported: translate, scale, rotate, matrix, lookat", step.tag);
     }
     return m;
+}
+
+}  // namespace
+
+glm::dvec3 parse_point(const Element& element) {
+    element.allow_attributes({"name", "value", "x", "y", "z"});
+    element.allow_no_children();
+    if (!element.find("value"))
+        for (const char* axis : {"x", "y", "z"}) (void)element.required(axis);
+    else
+        (void)finite_numbers(element, "value", 3);
+    return xyz(element, 0.0);
+}
+
+glm::dmat4 parse_transform(const Element& element) {
+    element.allow_attributes({"name"});
+    return steps_of(element);
+}
+
+Animation parse_animation(const Element& element) {
+    element.allow_attributes({"name"});
+    Animation animation;
+    for (const Element& key : element.children) {
+        if (key.tag != "transform") fail(key.where, "<{}> in <animation>; it takes <transform time=\"...\"> only", key.tag);
+        key.allow_attributes({"time"});
+        const double time = scalar(key, "time");
+        if (!animation.empty() && !(time > animation.back().time))
+            fail(key.where, "the times of an <animation> must increase, found {} after {}", time, animation.back().time);
+        animation.push_back({time, steps_of(key)});
+        const double det = glm::determinant(glm::dmat3(animation.back().to_world));
+        if (det == 0.0 || !std::isfinite(1.0 / det)) fail(key.where, "this placement cannot be inverted; does it scale by 0?");
+    }
+    if (animation.empty()) fail(element.where, "<animation> needs a <transform time=\"...\">");
+    return animation;
 }
 
 glm::dmat3 uv_transform(const glm::dmat4& m) noexcept { return {m[0][0], m[0][1], 0.0, m[1][0], m[1][1], 0.0, m[3][0], m[3][1], 1.0}; }

@@ -1,5 +1,5 @@
 #pragma once
-// <transform>, <point> and <vector>.
+// <transform>, <animation>, <point> and <vector>.
 
 #include "element.h"
 
@@ -14,6 +14,9 @@ namespace koksma::loader {
 
 /// The steps of a <transform>, each applied after the one before. @throws Error
 [[nodiscard]] glm::dmat4 parse_transform(const Element& element);
+
+/// <transform time="..."> after <transform time="...">, in order of time: as in Mitsuba 0.6 (Mitsuba 3 has no motion). @throws Error
+[[nodiscard]] Animation parse_animation(const Element& element);
 
 /// What a 4x4 matrix does to (u, v): the xy block and the translation; z is dropped, as in Mitsuba.
 [[nodiscard]] glm::dmat3 uv_transform(const glm::dmat4& m) noexcept;

@@ -1,8 +1,9 @@
 #pragma once
-// Materials of several lobes or of other materials: plastics, rough glass, blends, masks, ... They are computed for one path at a time, out of
-// parts (layered_parts.h) of which a kernel knows nothing. A part looks its textures up when it is asked.
+// Materials of several lobes or of other materials: plastics, rough glass, blends, masks, ... They are computed for one path at a time, out
+// of parts (layered_parts.h) of which a kernel knows nothing. A part looks its textures up when it is asked.
 
 #include <koksma/scene/bsdf/bsdf.h>
+#include <koksma/scene/ray.h>
 #include <koksma/scene/surface_uv.h>
 
 namespace koksma {
@@ -16,6 +17,8 @@ struct LayeredPoint {
     SurfaceUv uv;
     Vec3f n{0.0f, 0.0f, 1.0f};  ///< shading normal, with geometry and primitive for what bends it
     std::uint32_t geometry = 0, primitive = 0;
+    std::uint32_t instance = Hit::kNone;
+    float time = 0.0f;  ///< of the ray, where there is an instance
 };
 
 /// f |cos| and density of all smooth lobes. Directions in the surface's shading frame.
