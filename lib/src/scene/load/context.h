@@ -37,7 +37,7 @@ struct Context {
     std::set<const Element*> attached_emitters;
     std::map<const Element*, std::uint32_t> media{};                   ///< medium elements already in scene.media
     std::map<std::string, std::shared_ptr<const VolumeGrid>> grids{};  ///< by file
-    std::map<const Element*, std::uint32_t> groups;                    ///< shapegroup elements already in scene.groups
+    std::map<const Element*, std::uint32_t> groups{};                    ///< shapegroup elements already in scene.groups
 };
 
 }  // namespace koksma::loader
