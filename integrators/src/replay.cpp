@@ -45,12 +45,11 @@ public:
     }
     void emission(Vec3f contribution, float weight) { line("  emission  MIS weight {:.9g} adds {}", weight, text(contribution)); }
     void direct_light(std::uint32_t light, const LightSample& s, Vec3f contribution, float weight, bool visible) {
-        line("  light     #{} wi {} pdf {:.9g} /sr{} MIS weight {:.9g} {} {}", light, text(s.wi), s.pdf_w, s.delta ? " (delta)" : "",
-             weight, visible ? "adds" : "is hidden, would add", text(contribution));
+        line("  light     #{} wi {} pdf {:.9g} /sr{} MIS weight {:.9g} {} {}", light, text(s.wi), s.pdf_w, s.delta ? " (delta)" : "", weight,
+             visible ? "adds" : "is hidden, would add", text(contribution));
     }
     void bounce(const BsdfSample& s, Vec3f wi, Vec3f beta) {
-        line("  bsdf      wi {} pdf {:.9g}{} weight {} -> beta {}", text(wi), s.pdf_w, s.delta ? " (delta)" : " /sr", text(s.weight),
-             text(beta));
+        line("  bsdf      wi {} pdf {:.9g}{} weight {} -> beta {}", text(wi), s.pdf_w, s.delta ? " (delta)" : " /sr", text(s.weight), text(beta));
     }
     void roulette(float u, float survival, bool survives) {
         line("  roulette  u {:.9g} survival {:.9g}: {}", u, survival, survives ? "goes on" : "ends here");
@@ -75,8 +74,7 @@ void tell_numbers(std::string& out, std::string_view title, const SampleSource& 
     out += fmt::format("{:<12}", title);
     for (const Slot& s : run)
         for (int k = 0; k < s.arity; ++k)
-            out += fmt::format("{}{}[{}] {:.9g}", &s == run.data() && k == 0 ? "" : "  ", name(s.role),
-                               s.dimension + static_cast<std::uint32_t>(k),
+            out += fmt::format("{}{}[{}] {:.9g}", &s == run.data() && k == 0 ? "" : "  ", name(s.role), s.dimension + static_cast<std::uint32_t>(k),
                                u[s.dimension - run.front().dimension + static_cast<std::uint32_t>(k)]);
     out += '\n';
 }

@@ -111,9 +111,7 @@ struct EffectScene {
 
     d = floor_scene(false);
     MapEnvironment m;
-    m.image = image(4, 3,
-                    {Rgb(0.1f), Rgb(1.0f), Rgb(2.0f), Rgb(0.0f), Rgb(3.0f), Rgb(0.2f), Rgb(0.3f), Rgb(1.0f), Rgb(5.0f), Rgb(0.5f),
-                     Rgb(0.1f), Rgb(0.7f)});
+    m.image = image(4, 3, {Rgb(0.1f), Rgb(1.0f), Rgb(2.0f), Rgb(0.0f), Rgb(3.0f), Rgb(0.2f), Rgb(0.3f), Rgb(1.0f), Rgb(5.0f), Rgb(0.5f), Rgb(0.1f), Rgb(0.7f)});
     d.environment = m;
     add(Effect::environment, d);
     d.environment = ConstantEnvironment{};
@@ -196,8 +194,7 @@ struct EffectScene {
     auto coloured = std::make_shared<MeshData>();
     coloured->positions = {{-1, 0.2f, 1}, {1, 0.2f, 1}, {1, 0.2f, -1}, {-1, 0.4f, -1}};
     coloured->triangles = {{0, 1, 2}, {0, 2, 3}};
-    coloured->attributes = {{"vertex_color", {Rgb(0.9f, 0.1f, 0.1f), Rgb(0.1f, 0.9f, 0.1f), Rgb(0.1f, 0.1f, 0.9f), Rgb(0.5f)}},
-                            {"face_grey", {Rgb(0.2f), Rgb(0.6f)}}};
+    coloured->attributes = {{"vertex_color", {Rgb(0.9f, 0.1f, 0.1f), Rgb(0.1f, 0.9f, 0.1f), Rgb(0.1f, 0.1f, 0.9f), Rgb(0.5f)}}, {"face_grey", {Rgb(0.2f), Rgb(0.6f)}}};
     const std::uint32_t by_vertex = add_material(d, Diffuse{MeshAttributeTexture{"vertex_color", 0.5f}});
     const std::uint32_t by_face = add_material(d, Diffuse{MeshAttributeTexture{"face_grey", 1.0f}});
     add_shape(d, MeshShape{coloured}, Matrix(1.0), by_vertex);
@@ -205,9 +202,7 @@ struct EffectScene {
     add(Effect::mesh_attribute, d);
 
     d = floor_scene();
-    add_shape(d,
-              mesh({{-1, 0.2f, 1}, {1, 0.2f, 1}, {1, 0.2f, -1}, {-1, 0.2f, -1}}, {{0, 1, 2}, {0, 2, 3}},
-                   {{-0.3f, 1, 0}, {0.3f, 1, 0}, {0.3f, 1, 0.2f}, {-0.3f, 1, 0}}),
+    add_shape(d, mesh({{-1, 0.2f, 1}, {1, 0.2f, 1}, {1, 0.2f, -1}, {-1, 0.2f, -1}}, {{0, 1, 2}, {0, 2, 3}}, {{-0.3f, 1, 0}, {0.3f, 1, 0}, {0.3f, 1, 0.2f}, {-0.3f, 1, 0}}),
               Matrix(1.0), 0);
     add(Effect::shading_normals, d);
 
@@ -218,8 +213,7 @@ struct EffectScene {
 
     d = floor_scene(false);
     for (int i = 0; i < 24; ++i)
-        add_light(d, RectangleShape{}, translated({0.2 * i - 2.4, 1 + 0.1 * (i % 5), 0.3 * (i % 3)}) * scaled(0.05) * kDown,
-                  Rgb(9.0f, 1.0f + static_cast<float>(i), 3.0f));
+        add_light(d, RectangleShape{}, translated({0.2 * i - 2.4, 1 + 0.1 * (i % 5), 0.3 * (i % 3)}) * scaled(0.05) * kDown, Rgb(9.0f, 1.0f + static_cast<float>(i), 3.0f));
     add(Effect::many_lights, d);
     // One light of many triangles: the choice of a triangle takes the slot of the choice of a light.
     d = floor_scene(false);
@@ -227,8 +221,7 @@ struct EffectScene {
     std::vector<std::array<std::uint32_t, 3>> triangles;
     for (std::uint32_t i = 0; i < 40; ++i) {
         const float x = 0.1f * static_cast<float>(i) - 2.0f;
-        for (const glm::vec3 v : {glm::vec3(x, 1.0f, 0.0f), glm::vec3(x + 0.08f, 1.0f, 0.0f), glm::vec3(x, 1.1f, 0.2f)})
-            corners.push_back(v);
+        for (const glm::vec3 v : {glm::vec3(x, 1.0f, 0.0f), glm::vec3(x + 0.08f, 1.0f, 0.0f), glm::vec3(x, 1.1f, 0.2f)}) corners.push_back(v);
         triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
     }
     add_light(d, mesh(corners, triangles), Matrix(1.0), Rgb(5.0f));

@@ -7,7 +7,7 @@
 #include "batch_tracer.h"
 
 KOKSMA_MATHS_BEGIN
-std::unique_ptr<Tracer> make_all(const TraceJob& job) { return make_batch_tracer<detail::kSurfaceEffects>(job); }
+std::unique_ptr<Tracer> make_all(const TraceJob& job) { return make_batch_tracer<detail::kBatchAllEffects>(job); }
 KOKSMA_MATHS_END
 
 #if HWY_ONCE

@@ -36,18 +36,16 @@ public:
     [[nodiscard]] Float time(std::size_t at) const { return plan_.time < 0 ? Float(0.0f) : row(plan_.time, at); }
     /// @param at      place of the pack in the queue
     /// @param active  lanes that draw the number
-    [[nodiscard]] Float get_1d(std::size_t at, Mask active, SlotRole role, std::int16_t BounceSlots::* member) {
+    [[nodiscard]] Float get_1d(std::size_t at, Mask active, SlotRole role, std::int16_t BounceSlots::*member) {
         return slots_ != nullptr ? laid_out(slots_->*member, 0, at) : tail(at, active, role, 0);
     }
-    [[nodiscard]] Vec2<Float> get_2d(std::size_t at, Mask active, SlotRole role, std::int16_t BounceSlots::* member) {
+    [[nodiscard]] Vec2<Float> get_2d(std::size_t at, Mask active, SlotRole role, std::int16_t BounceSlots::*member) {
         if (slots_ == nullptr) return {tail(at, active, role, 0), tail(at, active, role, 1)};
         return {laid_out(slots_->*member, 0, at), laid_out(slots_->*member, 1, at)};
     }
 
 private:
-    [[nodiscard]] Float row(int r, std::size_t at) const {
-        return Float::load(first_ + static_cast<std::size_t>(r) * detail::kBatchRow + at);
-    }
+    [[nodiscard]] Float row(int r, std::size_t at) const { return Float::load(first_ + static_cast<std::size_t>(r) * detail::kBatchRow + at); }
     [[nodiscard]] Float laid_out(std::int16_t offset, int k, std::size_t at) const {
         return offset < 0 ? Float(0.0f) : row(offset + k, at);  // the kernel has an effect that the scene lacks: it does not use the number
     }

@@ -26,18 +26,18 @@ struct alignas(64) VectorRows {
 
 /// The paths that are still alive, close together.
 struct alignas(64) PathQueue {
-    VectorRows o, d;         ///< the next ray
-    FloatRow t_near, t_far;  ///< of camera rays; later ones go from 0 to infinity
-    FloatRow time;           ///< within the shutter's interval; only where something moves
-    VectorRows beta;         ///< f |cos| / pdf of the path so far
-    FloatRow eta_scale;      ///< square of the index that the path is in
-    VectorRows last_p;       ///< where the last direction was sampled,
-    VectorRows last_n;       ///< the shading normal there, for choosing among many lights,
-    FloatRow pdf;            ///< with which density per steradian,
-    IntRow delta;            ///< and -1 if light sampling could not have made it
-    IntRow lossless;         ///< bounces in a row after which nothing was lost
-    IntRow slot;             ///< which sample of the batch
-    SampleId id[kBatchRow];  ///< the same, for the sampler
+    VectorRows o, d;             ///< the next ray
+    FloatRow t_near, t_far;      ///< of camera rays; later ones go from 0 to infinity
+    FloatRow time;               ///< within the shutter's interval; only where something moves
+    VectorRows beta;             ///< f |cos| / pdf of the path so far
+    FloatRow eta_scale;          ///< square of the index that the path is in
+    VectorRows last_p;           ///< where the last direction was sampled,
+    VectorRows last_n;           ///< the shading normal there, for choosing among many lights,
+    FloatRow pdf;                ///< with which density per steradian,
+    IntRow delta;                ///< and -1 if light sampling could not have made it
+    IntRow lossless;             ///< bounces in a row after which nothing was lost
+    IntRow slot;                 ///< which sample of the batch
+    SampleId id[kBatchRow];      ///< the same, for the sampler
 };
 
 /// Shadow rays of one bounce, with what they bring if nothing is in the way.
@@ -50,12 +50,12 @@ struct alignas(64) ShadowQueue {
 
 /// Rays that met nothing, with what they bring of the environment. It holds one group of packs at a time.
 struct alignas(64) EscapeQueue {
-    VectorRows d;  ///< later x and y: the place in the cell
+    VectorRows d;            ///< later x and y: the place in the cell
     VectorRows beta;
-    FloatRow pdf;          ///< of the direction, per steradian; -1 if light sampling could not have made it
-    FloatRow probability;  ///< with which the environment would have been chosen
+    FloatRow pdf;            ///< of the direction, per steradian; -1 if light sampling could not have made it
+    FloatRow probability;    ///< with which the environment would have been chosen
     IntRow slot;
-    IntRow column, row;  ///< of the map's cell
+    IntRow column, row;      ///< of the map's cell
 };
 
 }  // namespace koksma::detail

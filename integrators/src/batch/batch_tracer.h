@@ -13,13 +13,12 @@ KOKSMA_MATHS_END
 #else
 
 // In the order in which they build on each other.
-#include "batch_numbers.h"
-#include "bsdf_lanes.h"
-#include "distribution_pack.h"
-#include "light_pack.h"
 #include "pack_access.h"
-#include "ray_order.h"
 #include "surface_pack.h"
+#include "light_pack.h"
+#include "bsdf_lanes.h"
+#include "batch_numbers.h"
+#include "ray_order.h"
 
 KOKSMA_MATHS_BEGIN
 

@@ -31,8 +31,7 @@ void for_layered(const LocalBsdfPack& local, Mask layered, F&& f) {
 
 /// As koksma::eval_local.
 template <EffectSet kEffects>
-[[nodiscard]] BsdfValueOf<Float> eval_pack(const Scene& scene, const LocalBsdfPack& local, Mask active, const Vec3<Float>& wo,
-                                           const Vec3<Float>& wi) {
+[[nodiscard]] BsdfValueOf<Float> eval_pack(const Scene& scene, const LocalBsdfPack& local, Mask active, const Vec3<Float>& wo, const Vec3<Float>& wi) {
     BsdfValueOf<Float> out = eval_bsdf<kEffects>(local.bsdf, wo, wi);
     if (const Mask layered = layered_lanes<kEffects>(local, active); any(layered)) {
         const VectorLanes from(wo), to(wi);
@@ -51,8 +50,7 @@ template <EffectSet kEffects>
 
 /// As koksma::sample_local.
 template <EffectSet kEffects>
-[[nodiscard]] BsdfSampleOf<Float> sample_pack(const Scene& scene, const LocalBsdfPack& local, Mask active, const Vec3<Float>& wo,
-                                              Float u_lobe, Vec2<Float> u) {
+[[nodiscard]] BsdfSampleOf<Float> sample_pack(const Scene& scene, const LocalBsdfPack& local, Mask active, const Vec3<Float>& wo, Float u_lobe, Vec2<Float> u) {
     BsdfSampleOf<Float> out = sample_bsdf<kEffects>(local.bsdf, wo, u_lobe, u);
     if (const Mask layered = layered_lanes<kEffects>(local, active); any(layered)) {
         const VectorLanes from(wo);

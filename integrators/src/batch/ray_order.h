@@ -62,8 +62,7 @@ private:
         };
         const auto negative = [](Float x, std::int32_t bit) { return select(x < Float(0.0f), Int32(bit), Int32(0)); };
         const Int32 octant = negative(d.x, 64) | negative(d.y, 128) | negative(d.z, 256);
-        const Int32 place =
-            cell(o.x, low_.x, scale_.x) | shift_left<2>(cell(o.y, low_.y, scale_.y)) | shift_left<4>(cell(o.z, low_.z, scale_.z));
+        const Int32 place = cell(o.x, low_.x, scale_.x) | shift_left<2>(cell(o.y, low_.y, scale_.y)) | shift_left<4>(cell(o.z, low_.z, scale_.z));
         return select(is_traceable(o, d), octant | place, Int32(kBuckets));
     }
 

@@ -12,8 +12,7 @@ struct SurfacePack {
 };
 
 static_assert(sizeof(GeometryRecord) == 16 && offsetof(GeometryRecord, kind) == 0 && offsetof(GeometryRecord, flip) == 1 &&
-              offsetof(GeometryRecord, has_normals) == 2 && offsetof(GeometryRecord, has_uvs) == 3 &&
-              std::endian::native == std::endian::little);
+              offsetof(GeometryRecord, has_normals) == 2 && offsetof(GeometryRecord, has_uvs) == 3 && std::endian::native == std::endian::little);
 
 /// One bit of the first word of a GeometryRecord, whose bytes are kind, flip, has_normals, has_uvs.
 template <int byte>
@@ -195,8 +194,7 @@ template <EffectSet kEffects>
 
 /// The value of a texture, whose reference is a member of the records that an index selects.
 template <EffectSet kEffects, class Record>
-[[nodiscard]] Vec3<Float> texture_pack(const Scene& scene, const Record* records, std::size_t offset, Int32 index, Mask active,
-                                       Vec2<Float> uv) {
+[[nodiscard]] Vec3<Float> texture_pack(const Scene& scene, const Record* records, std::size_t offset, Int32 index, Mask active, Vec2<Float> uv) {
     Vec3<Float> value = gather_vector(records, offset + offsetof(TextureRef, constant), index);
     if constexpr (kEffects.has(Effect::texture)) {
         const Int32 texture = gather_int(records, offset + offsetof(TextureRef, index), index);

@@ -101,11 +101,11 @@ float RecursiveEstimator::weight_of_met(const Branch& along, float pdf_light) co
 
 Vec3f RecursiveEstimator::environment(const Branch& along) const noexcept {
     if (scene_.environment_light < 0 || (along.depth == 0 && plan_.integrator.hide_emitters)) return Vec3f{0.0f};
+    const EnvironmentValue sky = environment_value(scene_, along.ray.d);
     const float pdf = along.delta ? 0.0f
-                                  : environment_pdf<kEffects>(scene_, along.ray.d) *
-                                        choice_probability<kEffects>(scene_, static_cast<std::uint32_t>(scene_.environment_light),
-                                                                     kWholeLight, along.from, along.from_normal);
-    return environment_radiance<kEffects>(scene_, along.ray.d) * weight_of_met(along, pdf);
+                                  : sky.pdf_w * choice_probability<kEffects>(scene_, static_cast<std::uint32_t>(scene_.environment_light),
+                                                                             kWholeLight, along.from, along.from_normal);
+    return sky.radiance * weight_of_met(along, pdf);
 }
 
 Vec3f RecursiveEstimator::emission(const Branch& along, Hit hit, const Surface& surface) const noexcept {

@@ -128,9 +128,8 @@ constexpr bool same_layout() {
     using Hits = decltype(RayHit::hit);
     constexpr std::size_t hit = offsetof(RayHit, hit);
     return sizeof(RayHit) <= sizeof(Own) && alignof(RayHit) <= alignof(Own) && offsetof(RayHit, ray) == 0 &&
-           offsetof(Ray, org_x) == offsetof(Own, o_x) && offsetof(Ray, tnear) == offsetof(Own, t_near) &&
-           offsetof(Ray, dir_x) == offsetof(Own, d_x) && offsetof(Ray, time) == offsetof(Own, time) &&
-           offsetof(Ray, tfar) == offsetof(Own, t_far) && offsetof(Ray, mask) == offsetof(Own, mask) &&
+           offsetof(Ray, org_x) == offsetof(Own, o_x) && offsetof(Ray, tnear) == offsetof(Own, t_near) && offsetof(Ray, dir_x) == offsetof(Own, d_x) &&
+           offsetof(Ray, time) == offsetof(Own, time) && offsetof(Ray, tfar) == offsetof(Own, t_far) && offsetof(Ray, mask) == offsetof(Own, mask) &&
            offsetof(Ray, flags) == offsetof(Own, flags) && hit + offsetof(Hits, primID) == offsetof(Own, primitive) &&
            hit + offsetof(Hits, geomID) == offsetof(Own, geometry) && hit + offsetof(Hits, instID) == offsetof(Own, instance);
 }
@@ -225,8 +224,7 @@ void Accelerator::add_instance(std::uint32_t group, std::span<const Placement> p
 }
 
 void Accelerator::add_sphere(const AnalyticSphere& sphere) {
-    if (!(length(sphere.center) + sphere.radius < kLargestCoordinate))
-        throw Error("a sphere reaches farther from the camera than 1.8e18, or is not finite");
+    if (!(length(sphere.center) + sphere.radius < kLargestCoordinate)) throw Error("a sphere reaches farther from the camera than 1.8e18, or is not finite");
     impl_->add_user({sphere});
 }
 void Accelerator::add_disk(const AnalyticDisk& disk) {
@@ -274,14 +272,12 @@ bool Accelerator::occluded(const Ray& ray) const noexcept {
 template <int N>
 void Accelerator::intersect(RayPacket<N>& rays, const std::int32_t* valid, Coherence coherence) const noexcept {
     if (impl_->watcher) impl_->watcher({N, false, coherence, rays.o_x, valid});
-    embree::intersect(valid, impl_->scene, reinterpret_cast<typename Packet<N>::RayHit&>(rays),
-                      embree::IntersectQuery(coherence == Coherence::coherent));
+    embree::intersect(valid, impl_->scene, reinterpret_cast<typename Packet<N>::RayHit&>(rays), embree::IntersectQuery(coherence == Coherence::coherent));
 }
 template <int N>
 void Accelerator::occluded(RayPacket<N>& rays, const std::int32_t* valid, Coherence coherence) const noexcept {
     if (impl_->watcher) impl_->watcher({N, true, coherence, rays.o_x, valid});
-    embree::occluded(valid, impl_->scene, reinterpret_cast<typename Packet<N>::Ray&>(rays),
-                     embree::OccludedQuery(coherence == Coherence::coherent));
+    embree::occluded(valid, impl_->scene, reinterpret_cast<typename Packet<N>::Ray&>(rays), embree::OccludedQuery(coherence == Coherence::coherent));
 }
 template void Accelerator::intersect(RayPacket<4>&, const std::int32_t*, Coherence) const noexcept;
 template void Accelerator::intersect(RayPacket<8>&, const std::int32_t*, Coherence) const noexcept;

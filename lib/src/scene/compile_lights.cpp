@@ -28,10 +28,8 @@ void check_radiance(const Image& image, const SourceLocation& where) {
 void check_radiance(const Texture& t, const SourceLocation& where) {
     if (const auto* constant = std::get_if<Rgb>(&t)) check_radiance(*constant, where);
     if (const auto* bitmap = std::get_if<BitmapTexture>(&t)) check_radiance(*bitmap->image, where);
-    if (const auto* checks = std::get_if<CheckerboardTexture>(&t))
-        check_radiance(checks->color0, where), check_radiance(checks->color1, where);
-    if (std::holds_alternative<MeshAttributeTexture>(t))
-        throw Error(where.text() + ": light that varies with a mesh attribute is not supported");
+    if (const auto* checks = std::get_if<CheckerboardTexture>(&t)) check_radiance(checks->color0, where), check_radiance(checks->color1, where);
+    if (std::holds_alternative<MeshAttributeTexture>(t)) throw Error(where.text() + ": light that varies with a mesh attribute is not supported");
 }
 
 /// Twice the area times the normal, in double.
@@ -95,8 +93,8 @@ constexpr float kDistantShare = 0.5f;
 
 bool is_distant(const Light& light) { return light.kind == LightKind::environment || light.kind == LightKind::directional; }
 
-/// What lights at infinity give grows with the ball around the scene, most of which may be empty. Their powers are scaled to their share,
-/// so that neither kind is starved: no kind has more than twice the variance that it would have alone.
+/// What lights at infinity give grows with the ball around the scene, most of which may be empty. Their powers are scaled to their share, so
+/// that neither kind is starved: no kind has more than twice the variance that it would have alone.
 std::vector<double> shared_out(const Scene& scene, std::vector<double> powers) {
     double distant = 0.0, near = 0.0;
     for (std::size_t i = 0; i < powers.size(); ++i) (is_distant(scene.lights[i]) ? distant : near) += powers[i];
@@ -114,8 +112,7 @@ void compile_light_tree(Scene& scene, std::span<const double> radiances, std::sp
     for (std::size_t i = 0; i < scene.lights.size(); ++i)
         if (is_distant(scene.lights[i])) sum += powers[i];
     for (std::size_t i = 0; i < scene.lights.size(); ++i)
-        if (is_distant(scene.lights[i]) && powers[i] > 0.0)
-            scene.light_tree.distant.push_back({static_cast<std::uint32_t>(i), static_cast<float>(powers[i] / sum)});
+        if (is_distant(scene.lights[i]) && powers[i] > 0.0) scene.light_tree.distant.push_back({static_cast<std::uint32_t>(i), static_cast<float>(powers[i] / sum)});
     if (sum > 0.0) scene.light_tree.distant_share = kDistantShare;
     scene.effects |= {Effect::light_choice, Effect::many_lights};
 }
@@ -214,8 +211,7 @@ void compile_lights(Scene& scene, glm::dvec3 origin) {
         light.area = static_cast<float>(area);
         // A denormal area is zero to a renderer that flushes denormals.
         if (!(light.area >= 1e-37f) || !std::isfinite(light.area))
-            throw Error(d.shapes[i].where.text() + ": a light of area " + std::to_string(area) +
-                        " m^2; it must be positive (and at least 1e-37)");
+            throw Error(d.shapes[i].where.text() + ": a light of area " + std::to_string(area) + " m^2; it must be positive (and at least 1e-37)");
         light.radiance = texture_ref(scene, d.shapes[i].emission->radiance);
         scene.geometries[i].light = static_cast<std::int32_t>(scene.lights.size());
         scene.effects |= {Effect::area_light};

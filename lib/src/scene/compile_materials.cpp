@@ -43,8 +43,7 @@ float mean_of(const Texture& t) {
 /// True where a part of the light passes straight on.
 bool lets_pass(const Material& m) {
     if (const auto* blend = std::get_if<Blend>(&m.front)) return lets_pass(blend->nested.at(0)) || lets_pass(blend->nested.at(1));
-    return std::holds_alternative<Mask>(m.front) || std::holds_alternative<Null>(m.front) ||
-           std::holds_alternative<ThinDielectric>(m.front);
+    return std::holds_alternative<Mask>(m.front) || std::holds_alternative<Null>(m.front) || std::holds_alternative<ThinDielectric>(m.front);
 }
 
 struct SideCompiler {
@@ -78,8 +77,8 @@ struct SideCompiler {
     }
     [[nodiscard]] BsdfKind kind_of(std::uint32_t nested) const { return scene.sides[nested].kind; }
     [[nodiscard]] bool is_delta(std::uint32_t nested) const {
-        return kind_of(nested) == BsdfKind::dielectric || kind_of(nested) == BsdfKind::thin_dielectric ||
-               kind_of(nested) == BsdfKind::conductor || kind_of(nested) == BsdfKind::layered_delta;
+        return kind_of(nested) == BsdfKind::dielectric || kind_of(nested) == BsdfKind::thin_dielectric || kind_of(nested) == BsdfKind::conductor ||
+               kind_of(nested) == BsdfKind::layered_delta;
     }
     /// Of a material made of others.
     [[nodiscard]] BsdfKind combined(std::initializer_list<std::uint32_t> nested) const {
@@ -163,17 +162,10 @@ struct SideCompiler {
         part.bsdf.specular_rate = p.main_specular_sampling_rate;
         part.bsdf.clearcoat_rate = p.clearcoat_sampling_rate;
         part.bsdf.diffuse_rate = p.diffuse_reflectance_sampling_rate;
-        const std::pair<TextureRef*, const Texture*> textures[] = {{&part.base_color, &p.base_color},
-                                                                   {&part.roughness, &p.roughness},
-                                                                   {&part.anisotropic, &p.anisotropic},
-                                                                   {&part.metallic, &p.metallic},
-                                                                   {&part.spec_trans, &p.spec_trans},
-                                                                   {&part.spec_tint, &p.spec_tint},
-                                                                   {&part.sheen, &p.sheen},
-                                                                   {&part.sheen_tint, &p.sheen_tint},
-                                                                   {&part.flatness, &p.flatness},
-                                                                   {&part.clearcoat, &p.clearcoat},
-                                                                   {&part.clearcoat_gloss, &p.clearcoat_gloss}};
+        const std::pair<TextureRef*, const Texture*> textures[] = {
+            {&part.base_color, &p.base_color}, {&part.roughness, &p.roughness},   {&part.anisotropic, &p.anisotropic}, {&part.metallic, &p.metallic},
+            {&part.spec_trans, &p.spec_trans}, {&part.spec_tint, &p.spec_tint},   {&part.sheen, &p.sheen},             {&part.sheen_tint, &p.sheen_tint},
+            {&part.flatness, &p.flatness},     {&part.clearcoat, &p.clearcoat},   {&part.clearcoat_gloss, &p.clearcoat_gloss}};
         for (const auto& [ref, texture] : textures) *ref = texture_ref(scene, *texture);
         if (!is_zero(p.anisotropic)) along_u();
         if (transmits)
@@ -247,8 +239,7 @@ void check_attributes(const Scene& scene, std::uint32_t material, std::size_t fi
             const auto* mesh = std::get_if<MeshShape>(&s.geometry);
             const auto has = [&](const MeshAttribute& a) { return a.name == wanted->name; };
             if (!mesh || std::none_of(mesh->data->attributes.begin(), mesh->data->attributes.end(), has))
-                throw Error(s.where.text() + ": the material of this shape looks up the attribute '" + wanted->name +
-                            "', which the shape does not have");
+                throw Error(s.where.text() + ": the material of this shape looks up the attribute '" + wanted->name + "', which the shape does not have");
         };
         for (const Shape& s : scene.description.shapes) check(s);
         for (const ShapeGroup& g : scene.description.groups)

@@ -10,9 +10,7 @@ namespace {
 
 constexpr EffectSet kAll = EffectSet::all();
 
-[[nodiscard]] Vec3f color(const Scene& scene, const TextureRef& ref, const SurfaceUv& uv) noexcept {
-    return texture_value<kAll>(scene, ref, uv);
-}
+[[nodiscard]] Vec3f color(const Scene& scene, const TextureRef& ref, const SurfaceUv& uv) noexcept { return texture_value<kAll>(scene, ref, uv); }
 /// A texture as one number: of colours the luminance.
 [[nodiscard]] float number(const Scene& scene, const TextureRef& ref, const SurfaceUv& uv) noexcept {
     if (ref.index < 0) return ref.constant.x;
@@ -174,15 +172,11 @@ struct Evaluation {
     [[nodiscard]] BsdfValue of(std::uint32_t side) const noexcept { return eval_layered(scene, elsewhere(at, side), wo, wi); }
 
     template <class Part>
-    BsdfValue operator()(const Part& part) const noexcept
-        requires kIsBsdf<Part>
-    {
+    BsdfValue operator()(const Part& part) const noexcept requires kIsBsdf<Part> {
         return eval_bsdf(looked_up(scene, part, at.uv), wo, wi);
     }
     template <class Part>
-    BsdfValue operator()(const Part& part) const noexcept
-        requires kBends<Part>
-    {
+    BsdfValue operator()(const Part& part) const noexcept requires kBends<Part> {
         const Frame frame = bent_frame(scene, part, at, wo);
         const Vec3f to = frame.to_local(wi);
         if (!(wi.z * to.z > 0.0f)) return {};
@@ -221,15 +215,11 @@ struct Sampling {
     }
 
     template <class Part>
-    BsdfSample operator()(const Part& part) const noexcept
-        requires kIsBsdf<Part>
-    {
+    BsdfSample operator()(const Part& part) const noexcept requires kIsBsdf<Part> {
         return sample_bsdf(looked_up(scene, part, at.uv), wo, u_lobe, u);
     }
     template <class Part>
-    BsdfSample operator()(const Part& part) const noexcept
-        requires kBends<Part>
-    {
+    BsdfSample operator()(const Part& part) const noexcept requires kBends<Part> {
         const Frame frame = bent_frame(scene, part, at, wo);
         BsdfSample s = sample_layered(scene, elsewhere(at, part.bending.nested), frame.to_local(wo), u_lobe, u);
         const Vec3f wi = frame.to_world(s.wi);
@@ -243,8 +233,7 @@ struct Sampling {
         const float chance = stopped ? stopped_share(part, w) : w;  // of the second
         const bool second = u_lobe < chance;
         const float probability = second ? w : 1.0f - w;
-        BsdfSample s =
-            of(second ? part.second : part.first, second ? stretched(u_lobe, 0.0f, chance) : stretched(u_lobe, chance, 1.0f - chance));
+        BsdfSample s = of(second ? part.second : part.first, second ? stretched(u_lobe, 0.0f, chance) : stretched(u_lobe, chance, 1.0f - chance));
         if (!(s.pdf_w > 0.0f)) return {};
         if (s.delta) {
             s.pdf_w *= probability;
@@ -296,8 +285,7 @@ BsdfSample sample_layered(const Scene& scene, const LayeredPoint& at, Vec3f wo, 
 BsdfSample sample_stopped(const Scene& scene, const LayeredPoint& at, Vec3f wo, float u_lobe, Vec2f u) noexcept {
     const MaterialSide& side = scene.sides[at.side];
     // Thin glass reflects below its reflectance.
-    if (side.layered < 0)
-        return sample_bsdf<kAll>(bsdf_of<kAll>(scene, side, at.uv), wo, side.kind == BsdfKind::thin_dielectric ? 0.0f : u_lobe, u);
+    if (side.layered < 0) return sample_bsdf<kAll>(bsdf_of<kAll>(scene, side, at.uv), wo, side.kind == BsdfKind::thin_dielectric ? 0.0f : u_lobe, u);
     return std::visit(Sampling{scene, at, wo, u_lobe, u, true}, scene.layered->parts[static_cast<std::size_t>(side.layered)]);
 }
 

@@ -54,10 +54,10 @@ public:
     [[nodiscard]] float time() const noexcept {
         return plan_.time < 0 ? 0.0f : camera_[static_cast<std::size_t>(plan_.time) * kCapacity + path_];
     }
-    [[nodiscard]] float get_1d(std::size_t bounce, SlotRole role, std::int16_t BounceSlots::* member) noexcept {
+    [[nodiscard]] float get_1d(std::size_t bounce, SlotRole role, std::int16_t BounceSlots::*member) noexcept {
         return bounce < plan_.bounces.size() ? value(bounce, plan_.bounces[bounce].*member, 0) : tail(bounce, role, 0);
     }
-    [[nodiscard]] Vec2f get_2d(std::size_t bounce, SlotRole role, std::int16_t BounceSlots::* member) noexcept {
+    [[nodiscard]] Vec2f get_2d(std::size_t bounce, SlotRole role, std::int16_t BounceSlots::*member) noexcept {
         if (bounce >= plan_.bounces.size()) return {tail(bounce, role, 0), tail(bounce, role, 1)};
         const std::int16_t offset = plan_.bounces[bounce].*member;
         return {value(bounce, offset, 0), value(bounce, offset, 1)};

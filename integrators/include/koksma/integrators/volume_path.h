@@ -78,14 +78,14 @@ template <EffectSet kEffects, class Observer>
             }
             if (!hit.valid()) {
                 if (scene.environment_light >= 0 && !(depth == 0 && settings.hide_emitters)) {
-                    const Vec3f le = environment_radiance<kEffects>(scene, ray.d);
+                    const EnvironmentValue sky = environment_value(scene, ray.d);
                     float mis = 1.0f;
                     if (!last_was_delta)
-                        mis = technique_weight<kEffects>(settings, Technique::bsdf, pdf_direction * weight.way,
-                                                         environment_pdf<kEffects>(scene, ray.d) *
-                                                             light_probability(static_cast<std::uint32_t>(scene.environment_light)));
-                    radiance += weight.beta * le * mis;
-                    observer.escaped(ray.d, weight.beta * le * mis, mis);
+                        mis = technique_weight<kEffects>(
+                            settings, Technique::bsdf, pdf_direction * weight.way,
+                            sky.pdf_w * light_probability(static_cast<std::uint32_t>(scene.environment_light)));
+                    radiance += weight.beta * sky.radiance * mis;
+                    observer.escaped(ray.d, weight.beta * sky.radiance * mis, mis);
                 }
                 return radiance;
             }

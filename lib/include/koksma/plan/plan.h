@@ -12,13 +12,12 @@ namespace koksma {
 
 /// Offsets of each role's first number within the run of one bounce; -1: the plan has no such slot there.
 struct BounceSlots {
-    std::int16_t light_choice = -1, light_position = -1, lobe = -1, direction = -1, roulette = -1, distance = -1, collision = -1,
-                 passage = -1;
+    std::int16_t light_choice = -1, light_position = -1, lobe = -1, direction = -1, roulette = -1, distance = -1, collision = -1, passage = -1;
 };
 
 /// Everything that the kernels need to know besides the scene. Plain data.
 struct RenderPlan {
-    EffectSet effects;  ///< of the scene under these settings; decides the layout
+    EffectSet effects;               ///< of the scene under these settings; decides the layout
     IntegratorSettings integrator;
     DimensionLayout layout;
     std::int16_t lens = -1, time = -1;  ///< offsets in the camera's run; film is at 0

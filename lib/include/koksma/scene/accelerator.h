@@ -28,10 +28,10 @@ enum class Coherence : std::uint8_t { incoherent, coherent };
 
 /// A query of a packet, as a watcher sees it.
 struct PacketQuery {
-    int width = 0;  ///< N of the packet
+    int width = 0;                     ///< N of the packet
     bool shadow = false;
     Coherence coherence = Coherence::incoherent;
-    const float* rays = nullptr;  ///< the packet's rows from o_x to t_far
+    const float* rays = nullptr;       ///< the packet's rows from o_x to t_far
     const std::int32_t* valid = nullptr;
 };
 

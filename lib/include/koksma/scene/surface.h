@@ -11,12 +11,12 @@
 namespace koksma {
 
 struct Surface {
-    Vec3f p;           ///< in the plane of the triangle (a convex combination of its vertices) or on the shape
-    Vec3f p_error;     ///< bound of the absolute error of each coordinate
-    Vec3f ng;          ///< geometric normal, unit, on the side that the shape calls front
-    Vec3f n;           ///< shading normal: interpolated where the mesh has normals
-    SurfaceUv uv;      ///< only where an effect looks at it
-    Vec3f dpdu{0.0f};  ///< direction in which u grows, up to its length; only for anisotropic materials, and zero without UVs
+    Vec3f p;             ///< in the plane of the triangle (a convex combination of its vertices) or on the shape
+    Vec3f p_error;       ///< bound of the absolute error of each coordinate
+    Vec3f ng;            ///< geometric normal, unit, on the side that the shape calls front
+    Vec3f n;             ///< shading normal: interpolated where the mesh has normals
+    SurfaceUv uv;        ///< only where an effect looks at it
+    Vec3f dpdu{0.0f};    ///< direction in which u grows, up to its length; only for anisotropic materials, and zero without UVs
     std::uint32_t geometry = 0, primitive = 0;
     std::uint32_t instance = Hit::kNone;
     float time = 0.0f;  ///< of the ray, where it met an instance
@@ -56,19 +56,17 @@ struct RefinedPoint {
     return best;
 }
 
-/// Where the ray meets the plane of a triangle, in double; the nearest point of the triangle where that is beyond it by more than Embree's
-/// own rounding, as with slivers of which Embree says that a ray nearly in their plane hits them while it passes by.
+/// Where the ray meets the plane of a triangle, in double; the nearest point of the triangle where that is beyond it by more than Embree's own
+/// rounding, as with slivers of which Embree says that a ray nearly in their plane hits them while it passes by.
 /// @return  the point given, where the ray lies in the plane
 [[nodiscard]] inline RefinedPoint refined_point(Vec3f v0, Vec3f v1, Vec3f v2, Vec3f o, Vec3f d, RefinedPoint coarse) noexcept {
-    const Vec3d origin = to_double(o), a = to_double(v0) - origin, b = to_double(v1) - origin, c = to_double(v2) - origin,
-                direction = to_double(d);
+    const Vec3d origin = to_double(o), a = to_double(v0) - origin, b = to_double(v1) - origin, c = to_double(v2) - origin, direction = to_double(d);
     const double w0 = dot(direction, cross(c, b)), w1 = dot(direction, cross(a, c)), w2 = dot(direction, cross(b, a)), sum = w0 + w1 + w2;
     if (sum == 0.0) return coarse;
     Vec3d q = (a * w0 + b * w1 + c * w2) * (1.0 / sum);
     if (!(w0 * sum >= 0.0 && w1 * sum >= 0.0 && w2 * sum >= 0.0)) {
         const Vec3d inside = nearest_on_border(a, b, c, q);
-        const double rounding =
-            double{error_gamma(16)} * std::sqrt(std::max({dot(a, a), dot(b, b), dot(c, c)})) + max_component(coarse.p_error);
+        const double rounding = double{error_gamma(16)} * std::sqrt(std::max({dot(a, a), dot(b, b), dot(c, c)})) + max_component(coarse.p_error);
         if (!(length(q - inside) <= rounding)) q = inside;
     }
     const Vec3f p = to_float(origin + q);
@@ -96,8 +94,7 @@ template <EffectSet kEffects>
     s.p_error = point.p_error;
     s.ng = s.n = is_needle(v0, v1, v2) ? normal_of_needle(v0, v1, v2, point.ng) : point.ng;
     if constexpr (kEffects.has(Effect::shading_normals))
-        if (g.has_normals)
-            s.n = interpolated_normal(scene.normals[index[0]], scene.normals[index[1]], scene.normals[index[2]], point.b0, b, s.ng);
+        if (g.has_normals) s.n = interpolated_normal(scene.normals[index[0]], scene.normals[index[1]], scene.normals[index[2]], point.b0, b, s.ng);
     if (g.flip) {
         s.ng = -s.ng;
         s.n = -s.n;
@@ -268,8 +265,7 @@ template <EffectSet kEffects>
         if (ref.index >= 0) {
             const auto index = static_cast<std::size_t>(ref.index);
             if constexpr (kEffects.has(Effect::mesh_attribute))
-                if (const AttributeSlot& slot = scene.attribute_slots[index]; slot.index >= 0)
-                    return detail::attribute_value(scene, slot, uv);
+                if (const AttributeSlot& slot = scene.attribute_slots[index]; slot.index >= 0) return detail::attribute_value(scene, slot, uv);
             return lookup(scene.textures[index], {uv.x, uv.y});
         }
     return ref.constant;

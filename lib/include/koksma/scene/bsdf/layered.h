@@ -1,6 +1,6 @@
 #pragma once
-// Materials of several lobes or of other materials: plastics, rough glass, blends, masks, ... They are computed for one path at a time, out
-// of parts (layered_parts.h) of which a kernel knows nothing. A part looks its textures up when it is asked.
+// Materials of several lobes or of other materials: plastics, rough glass, blends, masks, ... They are computed for one path at a time, out of
+// parts (layered_parts.h) of which a kernel knows nothing. A part looks its textures up when it is asked.
 
 #include <koksma/scene/bsdf/bsdf.h>
 #include <koksma/scene/ray.h>
