@@ -55,9 +55,9 @@ def main(arguments: list[str] | None = None) -> int:
         return _fail(str(error))
     except OSError as error:
         return _fail(f"{error.filename or options.dir}: {error.strerror or error}")
-    print(target)
+    print(f"report: {target}")
     if files:
-        print(f"{out / 'figures'}: {len(files)} files")
+        print(f"figures: {out / 'figures'}, {len(files)} files")
     return 0
 
 

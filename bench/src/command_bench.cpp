@@ -182,8 +182,7 @@ int finish_results(const std::filesystem::path& out, bool no_report) {
     if (no_report) return 0;
     std::string why_not;
     if (!make_report(out, why_not)) throw Error("the rows and the tables are complete, but there is no report.html: " + why_not);
-    fmt::print("report: {}\n", (out / "report.html").string());
-    return 0;
+    return 0;  // the package has printed where the report is
 }
 
 int run_bench(const BenchCommand& command, const Registry& registry, const std::string& command_line) {

@@ -1,5 +1,5 @@
 #include "commands.h"
-#include "npy.h"
+#include "numpy_file.h"
 #include "scene_setup.h"
 
 #include <koksma/film/atomic_file.h>

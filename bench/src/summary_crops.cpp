@@ -1,6 +1,6 @@
 // The crops themselves, as data for a report's viewer and for a paper.
 
-#include "npy.h"
+#include "numpy_file.h"
 #include "pictures.h"
 #include "replicate_images.h"
 #include "summary_images.h"

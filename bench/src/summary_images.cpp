@@ -1,7 +1,7 @@
 #include "summary_images.h"
 
 #include "curve.h"
-#include "npy.h"
+#include "numpy_file.h"
 #include "pictures.h"
 #include "replicate_images.h"
 

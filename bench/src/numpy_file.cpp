@@ -1,4 +1,4 @@
-#include "npy.h"
+#include "numpy_file.h"
 
 #include <koksma/film/atomic_file.h>
 #include <koksma/sampling/error.h>
