@@ -1,6 +1,7 @@
 """The lecture's page: python3 -m report.lecture NUMBERS.json PAGE.html (NUMBERS from `koksma bench lecture`)."""
 
 import sys
+from itertools import groupby
 from pathlib import Path
 
 from .topic_page import render_to_file
@@ -19,7 +20,13 @@ def _context(numbers: dict, folder: Path) -> dict:
 
     topics = numbers["topics"]
     return {"charts": {topic["name"]: [figures.chart(chart, f"{topic['name']}-{k}") for k, chart in enumerate(topic["charts"])] for topic in topics},
-            "pictures": {topic["name"]: [_picture(picture, folder) for picture in topic["pictures"]] for topic in topics}}
+            "pictures": {topic["name"]: _rows(topic["pictures"], folder) for topic in topics}}
+
+
+def _rows(pictures: list, folder: Path) -> list:
+    """Pictures of one subject (what stands before the colon of the caption) stand together."""
+    return [[_picture(picture, folder) for picture in row]
+            for _, row in groupby(pictures, key=lambda picture: picture["caption"].rpartition(": ")[0])]
 
 
 def _picture(entry: dict, folder: Path) -> dict:

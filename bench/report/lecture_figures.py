@@ -15,6 +15,8 @@ def chart(numbers: dict, key: str) -> Markup:
         figure = Figure(figsize=(5.75, 4.0), layout="constrained")
         axes = figure.subplots(subplot_kw={"xscale": "log" if numbers["x_log"] else "linear", "yscale": "log" if numbers["y_log"] else "linear"})
         ends: list[float] = []
+        # Where a closed form joins the points, they are not joined a second time.
+        joined = not any(series["known"] for series in numbers["series"])
         for k, series in enumerate(numbers["series"]):
             points = [(x, y) for x, y in zip(series["x"], series["y"])
                       if y["value"] is not None and (not numbers["y_log"] or y["value"] > 0)]
@@ -24,8 +26,8 @@ def chart(numbers: dict, key: str) -> Markup:
                 axes.plot(xs, values, color=BASELINE_COLOR, dashes=(4, 2), linewidth=1.0, label=series["label"], zorder=1)
                 continue
             color, marker = COLORS[k % len(COLORS)], list(MARKERS)[k % len(MARKERS)]
-            axes.plot(xs, values, color=color, marker=marker, markersize=5.5, markeredgecolor="white", markeredgewidth=0.6, linewidth=1.2,
-                      label=series["label"], zorder=3)
+            axes.plot(xs, values, color=color, marker=marker, markersize=5.5, markeredgecolor="white", markeredgewidth=0.6,
+                      linewidth=1.2 if joined or len(numbers["series"]) > 2 else 0.0, label=series["label"], zorder=3)
             for x, y in points:
                 if y["lo"] is None or y["hi"] is None:
                     continue

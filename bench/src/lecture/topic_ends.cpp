@@ -67,10 +67,10 @@ void truncation(Sheet& sheet) {
     // A room, against the same room with roulette and without a limit.
     const Stage cornell = open("cornell.xml", {{"res", "48"}, {"max_depth", "-1"}});
     const int n = lab.replicates(16);
-    const Replicates whole = replicate(lab, cornell, estimator(LightStrategy::mis), kSobol, 64, n);
+    const Replicates whole = replicate(lab, cornell, estimator(LightStrategy::mis), kSobol, 32, n);
     const std::vector<double> truth = means(whole.images);
     const double light = moments(truth).mean;
-    sheet.table("cornell without a limit, 64 samples a pixel",
+    sheet.table("cornell without a limit, 32 samples a pixel",
                 {"path ends", "rays a sample", "light that is missing (%)", "RMS bias of a pixel (% of the mean light)"});
     const Image whole_mean = mean_image(whole.images);
     sheet.row({"by roulette (throughput)", rays_per_sample(whole), exactly(0.0), "-"});
@@ -78,7 +78,7 @@ void truncation(Sheet& sheet) {
     Json y[2] = {Json::array(), Json::array()};
     for (const char* end : {"depth=1", "depth=2", "depth=3", "depth=4", "depth=6", "depth=8", "depth=12", "threshold=0.5", "threshold=0.2",
                             "threshold=0.1", "threshold=0.05", "threshold=0.02"}) {
-        const Replicates cut = replicate(lab, cornell, estimator(LightStrategy::mis, end), kSobol, 64, n);
+        const Replicates cut = replicate(lab, cornell, estimator(LightStrategy::mis, end), kSobol, 32, n);
         std::vector<double> missing;
         const std::vector<double> m = means(cut.images);
         for (std::size_t r = 0; r < m.size(); ++r) missing.push_back(100 * (truth[r] - m[r]) / light);  // pairs of independent replicates

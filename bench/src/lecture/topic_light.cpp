@@ -17,7 +17,7 @@ void direct_light(Sheet& sheet) {
     const Lab& lab = sheet.lab();
     const int n = lab.replicates(12);
     for (const char* name : {"cornell", "veach"}) {
-        const Stage stage = open_scattered(std::string(name) + ".xml", {{"res", std::to_string(kRes)}}),
+        const Stage stage = open_scattered(std::string(name) + ".xml", {{"res", "64"}}),
                     shown = open(std::string(name) + ".xml", {{"res", std::to_string(kRes)}});
         sheet.table(fmt::format("{}, {} samples a pixel; light that was scattered once or more", name, kSpp),
                     {"light is found", "rays a sample", "RMSE, random", "RMSE, Sobol'", "MSE gain over meeting it, random",

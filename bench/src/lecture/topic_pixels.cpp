@@ -30,7 +30,7 @@ void rays(Sheet& sheet) {
         x.push_back(static_cast<double>(spp));
         random.push_back(root_of(ea));
         sobol.push_back(root_of(eb));
-        sheet.picture(fmt::format("{} ray{}, random", spp, spp == 1 ? "" : "s"), replicate(lab, shown, kRandom, spp, 1).front(), kRes, kRes,
+        sheet.picture(fmt::format("random: {} ray{}", spp, spp == 1 ? "" : "s"), replicate(lab, shown, kRandom, spp, 1).front(), kRes, kRes,
                       1.6f);
         if (spp > 1) {
             std::vector<double> law;  // independent replicates of both counts in pairs
@@ -39,7 +39,7 @@ void rays(Sheet& sheet) {
         }
     }
     for (const std::uint64_t spp : {1, 4, 16, 256})
-        sheet.picture(fmt::format("{} ray{}, Sobol'", spp, spp == 1 ? "" : "s"), replicate(lab, shown, kSobol, spp, 1).front(), kRes, kRes,
+        sheet.picture(fmt::format("Sobol': {} ray{}", spp, spp == 1 ? "" : "s"), replicate(lab, shown, kSobol, spp, 1).front(), kRes, kRes,
                       1.6f);
     sheet.points("random", x, random);
     sheet.points("Sobol'", x, sobol);
@@ -90,9 +90,9 @@ void antialiasing(Sheet& sheet) {
         sobol_y.push_back(root_of(es));
         sheet.check(fmt::format("board, {} random rays a pixel: MSE", spp), e, coin / static_cast<double>(spp));
         if (spp == 256) {
-            sheet.picture("board, through the centre", centre.front(), kRes, kRes, 1.0f);
-            sheet.picture("board, all over the pixel, 256 rays", sobol.front(), kRes, kRes, 1.0f);
-            sheet.picture("board, the known picture", truth, kRes, kRes, 1.0f);
+            sheet.picture("board: through the centre", centre.front(), kRes, kRes, 1.0f);
+            sheet.picture("board: all over the pixel, 256 rays", sobol.front(), kRes, kRes, 1.0f);
+            sheet.picture("board: the known picture", truth, kRes, kRes, 1.0f);
         }
     }
     sheet.points("centre", counts, centre_y);
@@ -102,11 +102,11 @@ void antialiasing(Sheet& sheet) {
 
     constexpr int kFloor = 128;
     const Stage floor = open("lecture/floor.xml", {{"res", std::to_string(kFloor)}});
-    sheet.picture("floor, through the centre", replicate(lab, floor, kRandom, 1, 1, true).front(), kFloor, kFloor, 1.0f);
+    sheet.picture("floor: through the centre", replicate(lab, floor, kRandom, 1, 1, true).front(), kFloor, kFloor, 1.0f);
     for (const std::uint64_t spp : {1, 16, 256})
-        sheet.picture(fmt::format("floor, {} random ray{} all over the pixel", spp, spp == 1 ? "" : "s"),
+        sheet.picture(fmt::format("floor: {} random ray{} all over the pixel", spp, spp == 1 ? "" : "s"),
                       replicate(lab, floor, kRandom, spp, 1).front(), kFloor, kFloor, 1.0f);
-    sheet.picture("floor, 16 rays all over the pixel, Sobol'", replicate(lab, floor, kSobol, 16, 1).front(), kFloor, kFloor, 1.0f);
+    sheet.picture("floor: 16 rays all over the pixel, Sobol'", replicate(lab, floor, kSobol, 16, 1).front(), kFloor, kFloor, 1.0f);
 }
 
 void sequences(Sheet& sheet) {
