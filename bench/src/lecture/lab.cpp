@@ -34,6 +34,12 @@ Stage open(const std::string& file, const SceneParameters& defines) {
     return stage;
 }
 
+Stage open_scattered(const std::string& file, const SceneParameters& defines) {
+    Stage stage = open(file, defines);
+    stage.integrator.hide_emitters = true;
+    return stage;
+}
+
 EstimatorSettings estimator(LightStrategy light, std::string_view end, std::uint32_t branching) {
     EstimatorSettings s;
     s.light = light;

@@ -34,6 +34,9 @@ struct Stage {
 /// @param defines  values of the scene's parameters
 [[nodiscard]] Stage open(const std::string& file, const SceneParameters& defines);
 
+/// Without what emitters send straight into the camera: at the edge of a lamp that is all the error there is, whatever is compared.
+[[nodiscard]] Stage open_scattered(const std::string& file, const SceneParameters& defines);
+
 using Image = std::vector<float>;
 
 /// Replicates of one estimator: image, terms of the series (if asked for) and what they cost.

@@ -14,7 +14,7 @@ void branching(Sheet& sheet) {
     const Lab& lab = sheet.lab();
     constexpr double kMostRays = 1500;
     constexpr double kBudget = 256;  // rays a pixel, at which all are compared
-    const Stage stage = open("cornell.xml", {{"res", "24"}, {"max_depth", "4"}});
+    const Stage stage = open_scattered("cornell.xml", {{"res", "24"}, {"max_depth", "4"}});
     const int n = lab.replicates(12);
     for (const bool sobol : {false, true}) {
         const std::string sampler = sobol ? kSobol : kRandom;
@@ -76,7 +76,7 @@ void branching(Sheet& sheet) {
     }
 
     // With one bounce, n times the MSE is the variance of the camera's numbers plus that of the bounce over B.
-    const Stage one_bounce = open("cornell.xml", {{"res", "24"}, {"max_depth", "2"}});
+    const Stage one_bounce = open_scattered("cornell.xml", {{"res", "24"}, {"max_depth", "2"}});
     const int many = lab.replicates(32);
     const auto variance = [&](std::uint32_t b) {
         std::vector<double> v;

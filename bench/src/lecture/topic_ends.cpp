@@ -65,20 +65,20 @@ void truncation(Sheet& sheet) {
     for (const double albedo : {0.5, 0.8}) furnace_bias(sheet, albedo);
 
     // A room, against the same room with roulette and without a limit.
-    Stage cornell = open("cornell.xml", {{"res", "48"}, {"max_depth", "-1"}});
+    const Stage cornell = open("cornell.xml", {{"res", "48"}, {"max_depth", "-1"}});
     const int n = lab.replicates(16);
-    const Replicates whole = replicate(lab, cornell, estimator(LightStrategy::mis), kSobol, 64, n);
+    const Replicates whole = replicate(lab, cornell, estimator(LightStrategy::mis), kSobol, 32, n);
     const std::vector<double> truth = means(whole.images);
     const double light = moments(truth).mean;
-    sheet.table("cornell without a limit, 64 samples a pixel",
-                {"path ends", "rays a sample", "light that is missing (%)", "RMSE of the mean picture's bias over its light (%)"});
+    sheet.table("cornell without a limit, 32 samples a pixel",
+                {"path ends", "rays a sample", "light that is missing (%)", "RMS bias of a pixel (% of the mean light)"});
     const Image whole_mean = mean_image(whole.images);
     sheet.row({"by roulette (throughput)", rays_per_sample(whole), exactly(0.0), "-"});
     std::vector<double> x[2];
     Json y[2] = {Json::array(), Json::array()};
     for (const char* end : {"depth=1", "depth=2", "depth=3", "depth=4", "depth=6", "depth=8", "depth=12", "threshold=0.5", "threshold=0.2",
                             "threshold=0.1", "threshold=0.05", "threshold=0.02"}) {
-        const Replicates cut = replicate(lab, cornell, estimator(LightStrategy::mis, end), kSobol, 64, n);
+        const Replicates cut = replicate(lab, cornell, estimator(LightStrategy::mis, end), kSobol, 32, n);
         std::vector<double> missing;
         const std::vector<double> m = means(cut.images);
         for (std::size_t r = 0; r < m.size(); ++r) missing.push_back(100 * (truth[r] - m[r]) / light);  // pairs of independent replicates
@@ -176,9 +176,27 @@ void roulette(Sheet& sheet) {
             }
         }
     sheet.note(
-        "For independent numbers both have one variance. A sequence integrates I_roulette with one number as it does f: in one dimension. "
-        "A number of its own makes "
-        "the decision a step across the unit square, which costs the sequence most of what it gains.");
+        "For independent numbers both have one variance. A sequence sees with one number f up to a jump of f(1) / P at x = P, which is on "
+        "the border of a stratum where P is a power of two; with two numbers a jump along a line of the square, whose mean height is "
+        "less.");
+
+    // A room, where the direction matters too.
+    Stage cornell = open_scattered("cornell.xml", {{"res", "48"}, {"max_depth", "-1"}});
+    cornell.integrator.rr_depth = 0;
+    sheet.table("cornell, 16 samples a pixel, roulette from the first bounce on",
+                {"survival", "RMSE, own number, random", "RMSE, own number, Sobol'", "RMSE, rescaled, random", "RMSE, rescaled, Sobol'",
+                 "MSE gain of rescaling, Sobol'"});
+    for (const char* end : {"reflectance", "throughput", "constant=0.5"}) {
+        std::vector<double> e[2][2];
+        for (const int rescale : {0, 1})
+            for (const int sobol : {0, 1}) {
+                EstimatorSettings s = estimator(LightStrategy::mis, end);
+                s.number = rescale == 1 ? RouletteNumber::rescaled : RouletteNumber::own;
+                e[rescale][sobol] =
+                    squared_errors(replicate(lab, cornell, s, sobol == 1 ? kSobol : kRandom, 16, lab.replicates(16)).images);
+            }
+        sheet.row({end, root_of(e[0][0]), root_of(e[0][1]), root_of(e[1][0]), root_of(e[1][1]), gain_of(e[1][1], e[0][1])});
+    }
 }
 
 void absorption(Sheet& sheet) {
@@ -186,7 +204,7 @@ void absorption(Sheet& sheet) {
     const int n = lab.replicates(12);
     constexpr std::uint64_t kSpp = 16;
     for (const char* name : {"cornell", "caustic"}) {
-        Stage stage = open(std::string(name) + ".xml", {{"res", "64"}, {"max_depth", "64"}});
+        Stage stage = open_scattered(std::string(name) + ".xml", {{"res", "64"}, {"max_depth", "64"}});
         sheet.table(fmt::format("{}, {} samples a pixel, roulette from the first bounce on unless said otherwise", name, kSpp),
                     {"path ends", "rays a sample", "RMSE, random", "RMSE, Sobol'", "MSE x rays over that of reflectance, random",
                      "variance added by roulette (ledger, x L^2)"});

@@ -17,8 +17,9 @@ void direct_light(Sheet& sheet) {
     const Lab& lab = sheet.lab();
     const int n = lab.replicates(12);
     for (const char* name : {"cornell", "veach"}) {
-        const Stage stage = open(std::string(name) + ".xml", {{"res", std::to_string(kRes)}});
-        sheet.table(fmt::format("{}, {} samples a pixel", name, kSpp),
+        const Stage stage = open_scattered(std::string(name) + ".xml", {{"res", "64"}}),
+                    shown = open(std::string(name) + ".xml", {{"res", std::to_string(kRes)}});
+        sheet.table(fmt::format("{}, {} samples a pixel; light that was scattered once or more", name, kSpp),
                     {"light is found", "rays a sample", "RMSE, random", "RMSE, Sobol'", "MSE gain over meeting it, random",
                      "the same at equal rays", "mean, random"});
         std::vector<double> baseline;
@@ -36,13 +37,13 @@ void direct_light(Sheet& sheet) {
                                                                 : "both, weighted (MIS)";
             sheet.row({label, random.rays_per_sample(), root_of(a), root_of(b), gain_of(a, baseline),
                        gain_of(a, baseline, baseline_rays / random.rays_per_sample()), mean_of(means(random.images))});
-            sheet.picture(fmt::format("{}: {}", name, label), random.images.front(), kRes, kRes,
-                          name == std::string("cornell") ? 1.6f : 0.0f);
+            sheet.picture(fmt::format("{}: {}", name, label), replicate(lab, shown, estimator(light), kRandom, kSpp, 1).images.front(),
+                          kRes, kRes, name == std::string("cornell") ? 1.6f : 0.0f);
         }
     }
     sheet.note(
-        "All three are estimates of one picture: their means agree. A lamp that is directly visible, or seen in a mirror, is met in all of "
-        "them.");
+        "All three are estimates of one picture: their means agree. What the lamps send straight into the camera is the same in all of "
+        "them, and left out of the errors.");
 }
 
 void directions(Sheet& sheet) {
@@ -66,11 +67,12 @@ void directions(Sheet& sheet) {
         }
     }
     const int n = lab.replicates(12);
-    sheet.table(fmt::format("{} samples a pixel", kSpp), {"scene", "light is found", "RMSE, uniform", "RMSE, from the BSDF",
-                                                          "MSE gain by the BSDF, random", "the same with Sobol'"});
+    sheet.table(
+        fmt::format("{} samples a pixel; light that was scattered once or more", kSpp),
+        {"scene", "light is found", "RMSE, uniform", "RMSE, from the BSDF", "MSE gain by the BSDF, random", "the same with Sobol'"});
     for (const char* name : {"cornell", "veach"})
         for (const LightStrategy light : {LightStrategy::bsdf, LightStrategy::light, LightStrategy::mis}) {
-            const Stage stage = open(std::string(name) + ".xml", {{"res", "64"}});
+            const Stage stage = open_scattered(std::string(name) + ".xml", {{"res", "64"}});
             std::vector<double> errors[2][2];
             for (const int uniform : {0, 1})
                 for (const int sobol : {0, 1}) {

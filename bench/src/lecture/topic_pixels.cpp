@@ -14,8 +14,10 @@ namespace koksma::lecture {
 void rays(Sheet& sheet) {
     const Lab& lab = sheet.lab();
     constexpr int kRes = 96;
-    const Stage stage = open("cornell.xml", {{"res", std::to_string(kRes)}});
-    sheet.table("cornell", {"rays a pixel", "RMSE, random", "RMSE, Sobol'", "MSE gain by Sobol'", "n x MSE over that of 1 ray, random"});
+    const Stage stage = open_scattered("cornell.xml", {{"res", std::to_string(kRes)}}),
+                shown = open("cornell.xml", {{"res", std::to_string(kRes)}});
+    sheet.table("cornell: light that was scattered once or more",
+                {"rays a pixel", "RMSE, random", "RMSE, Sobol'", "MSE gain by Sobol'", "n x MSE over that of 1 ray, random"});
     sheet.chart("Error against rays", {"rays a pixel", "RMSE", true, true});
     std::vector<double> x, first;
     Json random = Json::array(), sobol = Json::array();
@@ -28,17 +30,17 @@ void rays(Sheet& sheet) {
         x.push_back(static_cast<double>(spp));
         random.push_back(root_of(ea));
         sobol.push_back(root_of(eb));
-        sheet.picture(fmt::format("{} ray{}, random", spp, spp == 1 ? "" : "s"), a.front(), kRes, kRes, 1.6f);
+        sheet.picture(fmt::format("random: {} ray{}", spp, spp == 1 ? "" : "s"), replicate(lab, shown, kRandom, spp, 1).front(), kRes, kRes,
+                      1.6f);
         if (spp > 1) {
             std::vector<double> law;  // independent replicates of both counts in pairs
             for (std::size_t r = 0; r < ea.size(); ++r) law.push_back(static_cast<double>(spp) * ea[r] - first[r]);
             sheet.check(fmt::format("cornell, random: {} x MSE of {} rays less the MSE of one", spp, spp), law, 0.0);
         }
-        if (spp == 256)
-            for (const std::uint64_t few : {1, 4, 16, 256})
-                sheet.picture(fmt::format("{} ray{}, Sobol'", few, few == 1 ? "" : "s"),
-                              few == 256 ? b.front() : replicate(lab, stage, kSobol, few, 1).front(), kRes, kRes, 1.6f);
     }
+    for (const std::uint64_t spp : {1, 4, 16, 256})
+        sheet.picture(fmt::format("Sobol': {} ray{}", spp, spp == 1 ? "" : "s"), replicate(lab, shown, kSobol, spp, 1).front(), kRes, kRes,
+                      1.6f);
     sheet.points("random", x, random);
     sheet.points("Sobol'", x, sobol);
     std::vector<double> law;
@@ -88,9 +90,9 @@ void antialiasing(Sheet& sheet) {
         sobol_y.push_back(root_of(es));
         sheet.check(fmt::format("board, {} random rays a pixel: MSE", spp), e, coin / static_cast<double>(spp));
         if (spp == 256) {
-            sheet.picture("board, through the centre", centre.front(), kRes, kRes, 1.0f);
-            sheet.picture("board, all over the pixel, 256 rays", sobol.front(), kRes, kRes, 1.0f);
-            sheet.picture("board, the known picture", truth, kRes, kRes, 1.0f);
+            sheet.picture("board: through the centre", centre.front(), kRes, kRes, 1.0f);
+            sheet.picture("board: all over the pixel, 256 rays", sobol.front(), kRes, kRes, 1.0f);
+            sheet.picture("board: the known picture", truth, kRes, kRes, 1.0f);
         }
     }
     sheet.points("centre", counts, centre_y);
@@ -100,11 +102,11 @@ void antialiasing(Sheet& sheet) {
 
     constexpr int kFloor = 128;
     const Stage floor = open("lecture/floor.xml", {{"res", std::to_string(kFloor)}});
-    sheet.picture("floor, through the centre", replicate(lab, floor, kRandom, 1, 1, true).front(), kFloor, kFloor, 1.0f);
+    sheet.picture("floor: through the centre", replicate(lab, floor, kRandom, 1, 1, true).front(), kFloor, kFloor, 1.0f);
     for (const std::uint64_t spp : {1, 16, 256})
-        sheet.picture(fmt::format("floor, {} random ray{} all over the pixel", spp, spp == 1 ? "" : "s"),
+        sheet.picture(fmt::format("floor: {} random ray{} all over the pixel", spp, spp == 1 ? "" : "s"),
                       replicate(lab, floor, kRandom, spp, 1).front(), kFloor, kFloor, 1.0f);
-    sheet.picture("floor, 16 rays all over the pixel, Sobol'", replicate(lab, floor, kSobol, 16, 1).front(), kFloor, kFloor, 1.0f);
+    sheet.picture("floor: 16 rays all over the pixel, Sobol'", replicate(lab, floor, kSobol, 16, 1).front(), kFloor, kFloor, 1.0f);
 }
 
 void sequences(Sheet& sheet) {
@@ -113,8 +115,9 @@ void sequences(Sheet& sheet) {
     const std::vector<std::pair<const char*, std::string>> samplers{
         {"random", kRandom}, {"stratified", "stratified"}, {"Halton", "halton:randomize=owen"}, {"Sobol'", kSobol}};
     for (const char* name : {"smooth", "penumbra", "cornell"}) {
-        const Stage stage = open(std::string(name) + ".xml", {{"res", "48"}});
-        sheet.table(fmt::format("{}: RMSE", name), {"sampler", "4", "16", "64", "256", "slope, 4 to 256", "MSE gain over random at 256"});
+        const Stage stage = open_scattered(std::string(name) + ".xml", {{"res", "48"}});
+        sheet.table(fmt::format("{}: RMSE of light that was scattered once or more", name),
+                    {"sampler", "4", "16", "64", "256", "slope, 4 to 256", "MSE gain over random at 256"});
         sheet.chart(fmt::format("{}: error against samples", name), {"samples a pixel", "RMSE", true, true});
         std::vector<double> baseline;
         for (const auto& [label, sampler] : samplers) {
