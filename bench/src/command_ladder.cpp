@@ -12,6 +12,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <fstream>
 
 namespace koksma {
@@ -79,6 +80,7 @@ Json climb_all(const Ladder& ladder, const Registry& registry, int threads, int&
                             : fmt::format("holds, tolerance {:.0e}", ladder.tolerance),
                    hidden);
     }
+    std::fflush(stdout);  // a ladder takes a while
     return out;
 }
 

