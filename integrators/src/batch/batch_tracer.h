@@ -14,6 +14,7 @@ KOKSMA_MATHS_END
 
 // In the order in which they build on each other.
 #include "pack_access.h"
+#include "distribution_pack.h"
 #include "surface_pack.h"
 #include "light_pack.h"
 #include "bsdf_lanes.h"
