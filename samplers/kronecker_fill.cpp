@@ -7,6 +7,7 @@
 #include <koksma/simd/each_target.h>
 
 #include "fill_packs.h"
+#include "padded_fill.h"
 
 KOKSMA_MATHS_BEGIN
 
@@ -16,37 +17,21 @@ HWY_INLINE UInt32 multiple(UInt32 index, std::uint64_t step) {
     return product_high(index, low) + index * high + UInt32(0x80000000u);
 }
 
-void fill_kronecker(const KroneckerSampler& sampler, const PixelKeys& keys, bool randomized, std::span<const SampleId> samples, SlotRun run, float* out,
-                    std::size_t stride) {
-    const auto key_of = [&](Pixel pixel) { return randomized ? keys(pixel) : Key{}; };
-    SampleBlock block;
-    PixelKeyArray orders;
-    PixelTable order, shifts[2];
-    for (std::size_t begin = 0; begin < samples.size(); begin += kBlockSamples, out += kBlockSamples) {
-        const auto part = samples.subspan(begin, std::min(kBlockSamples, samples.size() - begin));
-        block.read(part, key_of);
-        block.derive_pixel_keys(block.keys, kPaddedOrders, orders);
-        for (const Slot& slot : run) {
-            const std::uint32_t d = slot.dimension;
-            float* x_out = out + (d - run.front().dimension) * stride;
-            if (!shuffles_in_packs(block)) {
-                fill_points(sampler, part, slot, x_out, stride);
-                continue;
-            }
-            block.hash_pixels(orders, d, order);
-            block.hash_pixels(block.keys, d, shifts[0]);
-            block.hash_pixels(block.keys, d + 1, shifts[1]);
-            for (std::size_t i = 0; i < block.count; i += kPack) {
-                UInt32 index = UInt32::load(block.low + i);
-                if (randomized || d != 0) index = shuffled_index(index, block.of_pixel(order, i));
-                for (std::uint32_t k = 0; k < slot.arity; ++k) {
-                    UInt32 x = multiple(index, slot.arity == 1 ? kR1 : k == 0 ? kR2x : kR2y);
-                    if (randomized) x = x + block.of_pixel(shifts[k], i);
-                    unit_float(x).store_first(block.lanes(i), x_out + k * stride + i);
-                }
-            }
-        }
+struct KroneckerPairs {
+    bool randomized;
+    HWY_INLINE UInt32 visited(UInt32 index, UInt32 seed, const Slot& slot) const {
+        return randomized || slot.dimension != 0 ? shuffled_index(index, seed) : index;
     }
+    HWY_INLINE Float value(UInt32 point, UInt32 seed, const Slot& slot, std::uint32_t k) const {
+        const UInt32 x = multiple(point, slot.arity == 1 ? kR1 : k == 0 ? kR2x : kR2y);
+        return unit_float(randomized ? x + seed : x);
+    }
+};
+
+void fill_kronecker(const KroneckerSampler& sampler, const PixelKeys& keys, bool randomized, std::span<const SampleId> samples, SlotRun run,
+                    float* out, std::size_t stride) {
+    const auto key_of = [&](Pixel pixel) { return randomized ? keys(pixel) : Key{}; };
+    fill_padded_pairs(sampler, key_of, KroneckerPairs{randomized}, samples, run, out, stride);
 }
 
 KOKSMA_MATHS_END
