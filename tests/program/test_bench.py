@@ -269,6 +269,30 @@ class Reports(BenchTest):
         self.succeeds("report", "out")
         self.assertIn("out/report.html", self.files())
 
+    @unittest.skipUnless(reports_can_be_made(), "needs numpy, matplotlib and jinja2")
+    def test_an_anonymous_copy_tells_nothing(self):
+        self.succeeds("bench", self.path("tiny.json"), "-o", self.path("out"), "--no-report")  # the command line has paths
+        experiment = self.lines()[0]["experiment"]
+        self.write("figures.json", json.dumps({"samplers": ["random"]}))
+        self.succeeds("report", "out", "--figures", "figures.json", "--anonymous")
+        secrets = {experiment["machine"], experiment["commit"].rstrip("+"), self.dir}
+        found, copied = set(), 0
+        for root, _, names in os.walk(self.path("out", "anonymous")):
+            for name in names:
+                with open(os.path.join(root, name), "rb") as file:
+                    content = file.read()
+                found |= {secret for secret in secrets if secret.encode() in content}
+                copied += 1
+        self.assertEqual(found, set())
+        self.assertGreater(copied, 10)
+        self.assertTrue(all(secret in self.read("out/results.jsonl").decode() for secret in secrets))
+        self.assertIn("out/anonymous/figures/crops/scene-random.exr", self.files())
+        self.assertNotIn("out/report.html", self.files())
+        self.write("figures.json", json.dumps({"sampler": ["random"]}))
+        result = self.koksma("report", "out", "--figures", "figures.json")
+        self.assertEqual(result.code, 1)
+        self.assertIn('figures.json: unknown key "sampler"', result.err)
+
     def files_beside_report(self):
         return os.listdir(self.path("out"))
 

@@ -53,6 +53,22 @@ class References(BenchTest):
             self.assertEqual((result.code, result.err.count("\n")), (1, 1), result.err)
             self.assertIn("the two halves of the reference of scene (sobol:randomize=owen and halton:randomize=owen) disagree: z =", result.err)
 
+    def test_a_stale_one_is_refused(self):
+        self.succeeds("reference", "tiny.json")
+        (name,) = os.listdir(self.path("references"))
+        content = self.read(f"references/{name}")
+        start = content.index(b"estimator version ") + len(b"estimator version ")
+        self.assertTrue(content[start:start + 1].isdigit())
+        content = content[:start] + b"0" + content[start + 1:]
+        digest = name.rsplit("-", 1)[1].split(".")[0].encode()  # as a program with another estimator has it, whose expected image may be another one
+        self.assertIn(digest, content)
+        with open(self.path("references", name), "wb") as file:
+            file.write(content.replace(digest, digest[::-1]))
+        result = self.koksma("bench", "tiny.json", "-o", "out", "--no-report")
+        self.assertEqual((result.code, result.err.count("\n")), (1, 1), result.err)
+        self.assertIn("estimator version 0", result.err)
+        self.assertIn("remake it with 'koksma reference'", result.err)
+
     def test_a_third_render_sees_what_both_halves_have_wrong(self):
         out = self.succeeds("reference", "tiny.json", "--check").out
         self.assertRegex(out, r"agrees with independent random numbers, roulette from depth 1 instead of 5: largest z of an 8x8 block \d\.\d\d \(limit \d+\.\d\)")

@@ -158,7 +158,7 @@ class Shards(ResumeTest):
         return ["out/shard-" + part.replace("/", "-of-") for part in parts]
 
     def test_merged_parts_have_the_rows_of_one_run(self):
-        self.write_experiment(layouts=3, samplers=["random", "sobol", "halton"])
+        self.write_experiment(layouts=3, progressive=2, samplers=["random", "sobol", "halton"])
         self.succeeds("bench", "tiny.json", "-o", "whole", "--no-report")
         folders = self.shards("2/3", "1/3", "3/3")
         self.assertTrue(all(len(self.rows_of(f)) > 10 for f in folders))

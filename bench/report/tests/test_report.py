@@ -15,7 +15,7 @@ from report.__main__ import main
 from report.tests import synthetic
 
 BENCH = Path(__file__).resolve().parents[2]
-VOID = {"meta", "img", "br"}
+VOID = {"meta", "img", "br", "input"}
 
 
 class Page(HTMLParser):
@@ -239,6 +239,68 @@ class WhatThePageShows(ReportTest):
     def test_invalid_samples_are_reported(self):
         self.summary["invalid_samples"] = 3
         self.assertIn("3 invalid samples", Page(self.page()).text)
+
+    def test_predictions_are_shown_with_verdict_and_figure(self):
+        self.assertNotIn("Predicted beforehand", self.page())
+        found = [{"what": "Random", "value": -0.499, "lo": -0.51, "hi": -0.49, "verdict": "held"}]
+        self.scene.update(predictions=[{"says": "slope of Random between -0.55 and -0.45", "of": "slope", "verdict": "held", "found": found},
+                                       {"says": "MSE gain over random of Stratified at 256 spp at least 9", "of": "gain", "verdict": "refuted",
+                                        "found": [{"what": "Stratified", "value": 4.0, "lo": 3.5, "hi": 4.5, "verdict": "refuted"}]},
+                                       {"says": "MSE at 1024 spp: Halton below Random", "of": "order", "verdict": "not tested",
+                                        "found": [{"what": "Random / Halton", "value": None, "lo": None, "hi": None, "verdict": "not tested"}]}],
+                          predictions_verdict="refuted")
+        page = Page(self.page())
+        text = " ".join(page.text.split())
+        self.assertIn("Of the 3 claims that the experiment made beforehand 1 held, 1 was refuted, 1 not tested.", text)
+        for words in ("slope of Random between \u22120.55", "\u22120.499 [\u22120.510, \u22120.490]", "\u00d74.00 [3.50, 4.50]", "not rendered", "1 of 3 claims held"):
+            self.assertIn(words, text)
+        self.scene["predictions"][0]["verdict"] = "guessed"
+        (self.directory / "report.html").unlink()
+        self.refuse_summary('"guessed"', '"held", "refuted", "undecided", "not tested"')
+
+    def test_winner_margin_and_overtaking_follow_from_the_pairs(self):
+        def pair(a, b, ratio, better):
+            ns = {"ns_a": 100.0, "ns_b": 120.0}
+            return {"a": a, "b": b, "spp": 256, "mse_ratio": {"value": ratio, "lo": ratio * 0.9, "hi": ratio * 1.1}, "p": 0.001, "p_holm": 0.002, "better": better,
+                    "b_overtakes_below_ns_per_path": {"value": 100 / ratio, "lo": 90 / ratio, "hi": 110 / ratio, **ns},
+                    "a_overtakes_below_ns_per_path": {"value": 120 * ratio, "lo": 100 * ratio, "hi": 130 * ratio, **ns}}
+        names = [sampler["sampler"] for sampler in self.scene["samplers"]]
+        self.scene["pairs"] = [pair(names[0], names[1], 0.25, names[1]), pair(names[0], names[2], 0.125, names[2]), pair(names[1], names[2], 0.5, names[2])]
+        text = " ".join(Page(self.page()).text.split())
+        self.assertIn("Halton (Owen) \u00d72.00 [1.82, 2.22] Stratified", text)  # the inverse of [0.45, 0.55]
+        self.assertIn("is ahead", text)
+        self.scene["pairs"][2]["better"] = None
+        text = " ".join(Page(self.page()).text.split())
+        self.assertRegex(text, r"Stratified,\s*Halton \(Owen\)\s*not distinguishable from each other")
+
+    def test_equal_time_progressive_renders_and_earlier_commits_are_shown(self):
+        plain = self.page()
+        for words in ("At equal time", "Progressive renders", "Earlier rows"):
+            self.assertNotIn(words, plain)
+        for sampler in self.scene["samplers"]:
+            slope = {"value": -0.7, "lo": -0.75, "hi": -0.65, "spp_from": 4, "spp_to": 256}
+            sampler["progressive"] = {"planned_spp": 256, "renders": 4, "slope": slope, "points": [{"spp": p["spp"], "rmse": p["rmse"] * 1.1, "lo": p["rmse"], "hi": None} for p in sampler["points"]]}
+        self.scene["samplers"][1]["equal_time_vs_random"] = {"seconds": 1.5, "mse_ratio": 3.21, "lo": 3.0, "hi": 3.4, "how": "interpolated"}
+        self.summary["other_commits"] = [{"commit": "0ld", "rows": 12}]
+        text = " ".join(Page(self.page()).text.split())
+        for words in ("At equal time", "\u00d73.21 [3.00, 3.40]", "no time in common", "4 to 256 spp", "\u22120.700 [\u22120.750, \u22120.650]", "12 of 80 rows were rendered by commit 0ld"):
+            self.assertIn(words, text)
+
+    def test_intervals_of_heavy_tailed_errors_say_what_they_cover(self):
+        self.assertNotIn("\u2021</a>", self.page())
+        self.scene["samplers"][2]["interval_coverage"] = {"replicates": 4, "rmse": 0.937, "slope": 0.914, "gain": 0.87}
+        page = self.page()
+        self.assertGreater(page.count("\u2021</a>"), 5)  # beside gain, slope and every point
+        text = " ".join(Page(page).text.split())
+        self.assertIn("with 4 replicates at least 93.7 % (RMSE, relMSE), 91.4 % (slope), 87.0 % (gain)", text)
+
+    def test_many_samplers_stand_one_below_the_other(self):
+        specs = [(f"s{i}", f"Sampler {i}", 1.0, 0.1) for i in range(12)]
+        self.summary = synthetic.make_summary(("smooth", "cornell"), specs)
+        page = Page(self.page())
+        self.assertIsNone(page.unbalanced)
+        self.assertIn("<th scope=\"row\">", self.page())
+        self.assertEqual(len(page.ids), len(set(page.ids)))
 
     def test_raw_rows_are_linked_when_they_are_there(self):
         self.assertNotIn('href="results.jsonl"', self.page())

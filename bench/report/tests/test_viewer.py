@@ -81,7 +81,7 @@ class Viewer(unittest.TestCase):
         page = self.directory / "report.html"
         page.write_text(render_page(self.summary).replace("</body>", DRIVER), encoding="utf-8")
         result = subprocess.run([CHROMIUM, "--headless", "--no-sandbox", "--disable-gpu", f"--user-data-dir={self.directory}/profile", "--enable-logging=stderr", "--dump-dom",
-                                 "--virtual-time-budget=2000", page.as_uri()], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=120)
+                                 "--virtual-time-budget=2000", page.as_uri()], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=400)
         self.assertNotIn("Uncaught", result.stderr)
         found = json.loads(re.search(r'data-found="([^"]*)"', result.stdout).group(1).replace("&quot;", '"').replace("&amp;", "&"))
         self.assertNotIn("error", found, found)

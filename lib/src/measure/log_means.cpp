@@ -74,7 +74,7 @@ LogCombination combine(std::span<const double> c, std::span<const LogMean> terms
         cumulant += (c[i] < 0 ? -1 : 1) * std::max(0.0, terms[i].skew) * variances[i] * std::sqrt(variances[i]);
     const double skew = variance > 0 ? cumulant / (variance * std::sqrt(variance)) : 0;
     const double up = variance > 0 ? variance_up / variance : 0.5, widened = 1 + 0.25 * outlier;
-    const auto t = [&](double share) { return widened * student_t_quantile(1 - tail_above(share, 1 - confidence), r.dof); };
+    const auto t = [&](double share) { return widened * std::max(0.0, student_t_quantile(1 - tail_above(share, 1 - confidence), r.dof)); };
     r.lo = r.value - upward(t(1 - up), -skew) * r.standard_error;
     r.hi = r.value + upward(t(up), skew) * r.standard_error;
     return r;
