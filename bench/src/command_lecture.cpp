@@ -5,11 +5,11 @@
 #include "progress.h"
 
 #include <koksma/film/atomic_file.h>
-#include <koksma/integrators/thread_clock.h>
 
 #include <fmt/format.h>
 
 #include <chrono>
+#include <ctime>
 
 namespace koksma {
 
@@ -70,6 +70,7 @@ int run_lecture(const LectureCommand& command, const Registry& registry, const s
     Json topics = Json::array();
     int held = 0, refuted = 0;
     const auto start = std::chrono::steady_clock::now();
+    const std::clock_t cpu_start = std::clock();  // of all threads
     for (const Topic* topic : wanted) {
         const auto topic_start = std::chrono::steady_clock::now();
         lecture::Sheet sheet(lab, topic->name);
@@ -86,12 +87,13 @@ int run_lecture(const LectureCommand& command, const Registry& registry, const s
         topics.push_back(std::move(json));
     }
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const double cpu_seconds = static_cast<double>(std::clock() - cpu_start) / CLOCKS_PER_SEC;
     const Json all = {{"command", command_line},
                       {"version", version_text()},
                       {"machine", machine().cpu},
                       {"quick", command.quick},
                       {"seed", command.seed},
-                      {"seconds", seconds},
+                      {"seconds", seconds}, {"cpu_seconds", cpu_seconds},
                       {"held", held},
                       {"refuted", refuted},
                       {"topics", topics}};

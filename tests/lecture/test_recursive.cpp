@@ -11,9 +11,15 @@ using koksma::test::contains;
 using koksma::test::refusal;
 
 TEST_CASE("the recursive estimator gives what the reference kernel gives, path by path", "[lecture]") {
+    int compared = 0;
     for (const NamedScene& s : kernel_scenes()) {
         INFO(s.name);
         const Ready ready(s.description);
+        if (!kLectureEffects.contains(ready.plan.effects)) {
+            CHECK(contains(refusal([&] { static_cast<void>(make_plan(ready.scene, s.description.integrator, EstimatorSettings{})); }), "do not know"));
+            continue;
+        }
+        ++compared;
         const Traced reference = trace_all(ready, find_kernel("reference/all", ready.plan.effects), 4, 7);
         const auto source = samplers().make(kSobol)->bind(sampling_plan(ready.scene, ready.plan, 4, 7));
         RecursiveEstimator estimator(ready.scene, ready.plan, *source, {});
@@ -36,6 +42,7 @@ TEST_CASE("the recursive estimator gives what the reference kernel gives, path b
         CHECK(rays.closest <= reference.rays.closest + at / 1000);
         CHECK(reference.rays.closest <= rays.closest + at / 1000);
     }
+    CHECK(compared >= 25);
 }
 
 TEST_CASE("light found by meeting it, by sampling it and by both is the same light; so are directions from the BSDF and uniform ones",

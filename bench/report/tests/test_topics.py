@@ -34,7 +34,7 @@ BUDGET = {
              "removed": _estimate(None), "gain": _estimate(None), "added": _estimate(None), "loss": _estimate(None)}]}]},
 }
 LECTURE = {
-    "command": "./koksma bench lecture", "version": "v", "machine": "m", "quick": False, "seed": 0, "seconds": 12.3, "held": 1, "refuted": 1,
+    "command": "./koksma bench lecture", "version": "v", "machine": "m", "quick": False, "seed": 0, "seconds": 12.3, "cpu_seconds": 20.0, "held": 1, "refuted": 1,
     "topics": [{
         "name": "rays", "title": "More rays & less noise", "slide": "Four times the rays.", "command": "./koksma bench lecture rays", "seconds": 1.0,
         "tables": [{"title": "T", "columns": ["n", "RMSE"], "rows": [[4, _estimate(0.5, 0.4, 0.6)], ["none", None]]}],
