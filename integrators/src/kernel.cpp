@@ -19,7 +19,7 @@ constexpr std::array<Kernel, 8> kKernels{{
     {"batch/diffuse", detail::kDiffuseEffects, kBatch, detail::make_batch_diffuse},
     {"batch/specular", detail::kSpecularEffects, kBatch, detail::make_batch_specular},
     {"batch/diffuse-textured", detail::kDiffuseTexturedEffects, kBatch, detail::make_batch_diffuse_textured},
-    {"batch/all", detail::kBatchAllEffects, kBatch, detail::make_batch_all},
+    {"batch/all", EffectSet::all(), kBatch, detail::make_batch_all},
     {"reference/diffuse", detail::kDiffuseEffects, kBlock, detail::make_reference_diffuse},
     {"reference/specular", detail::kSpecularEffects, kBlock, detail::make_reference_specular},
     {"reference/diffuse-textured", detail::kDiffuseTexturedEffects, kBlock, detail::make_reference_diffuse_textured},

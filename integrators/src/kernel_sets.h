@@ -12,9 +12,6 @@ inline constexpr EffectSet kDiffuseTexturedEffects =
 inline constexpr EffectSet kSpecularEffects =
     kDiffuseEffects | EffectSet{Effect::analytic_shape, Effect::sphere_light, Effect::specular, Effect::dielectric, Effect::lobe, Effect::environment};
 
-/// The batch kernel looks up textures by (u, v) alone.
-inline constexpr EffectSet kBatchAllEffects = EffectSet::all().without(Effect::mesh_attribute);
-
 // One function a variant, one source file each, so that they compile in parallel.
 std::unique_ptr<Tracer> make_reference_diffuse(const TraceJob& job);
 std::unique_ptr<Tracer> make_reference_specular(const TraceJob& job);
