@@ -5,6 +5,7 @@
 
     terrain.xml   a landscape of a million triangles in the sun lamp's light
     glass.xml     a bumpy glass ball of 70 000 triangles on a floor, lit by an environment map
+    sky.xml       the same ball of plaster
     terrain.ply, glass.ply, sky.hdr
 
 About 25 MB. The same bytes on every machine and with every version of Python: nothing here is random, and nothing is left to
@@ -57,9 +58,12 @@ TERRAIN = """    <shape type="ply">
     </shape>
 """
 
-GLASS = """    <shape type="ply">
+GLASS_BSDF = """<bsdf type="dielectric"><float name="int_ior" value="1.5"/><float name="ext_ior" value="1.0"/></bsdf>"""
+PLASTER_BSDF = """<bsdf type="diffuse"><rgb name="reflectance" value="0.7, 0.69, 0.66"/></bsdf>"""
+
+BALL = """    <shape type="ply">
         <string name="filename" value="glass.ply"/>
-        <bsdf type="dielectric"><float name="int_ior" value="1.5"/><float name="ext_ior" value="1.0"/></bsdf>
+        {bsdf}
     </shape>
     <shape type="rectangle">
         <transform name="to_world"><scale value="6"/><rotate x="1" angle="-90"/></transform>
@@ -181,8 +185,9 @@ def main():
     write_sky(folder / "sky.hdr")
     (folder / "terrain.xml").write_text(SCENE.format(purpose="A landscape whose BVH fits no cache, under one lamp.", fov=42, origin="0.5, 2.6, 6.5",
                                                      target="0, -0.2, 0", body=TERRAIN))
-    (folder / "glass.xml").write_text(SCENE.format(purpose="Glass of many triangles under an environment map with a sun.", fov=36,
-                                                   origin="0, 2.2, 5", target="0, 0.9, 0", body=GLASS))
+    for name, purpose, bsdf in (("glass", "Glass of many triangles under an environment map with a sun.", GLASS_BSDF),
+                                ("sky", "Plaster of many triangles under an environment map with a sun.", PLASTER_BSDF)):
+        (folder / f"{name}.xml").write_text(SCENE.format(purpose=purpose, fov=36, origin="0, 2.2, 5", target="0, 0.9, 0", body=BALL.format(bsdf=bsdf)))
 
 
 if __name__ == "__main__":

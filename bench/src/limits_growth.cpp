@@ -6,7 +6,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <glm/common.hpp>
+
 #include <chrono>
+#include <cmath>
 #include <ctime>
 #include <fstream>
 #include <string>
@@ -52,15 +55,41 @@ Cost cost(const LimitsCommand& command, const SceneSetup& setup, std::uint64_t s
     return out;
 }
 
+/// Compiles the scene anew with a changed description.
+void recompile(SceneSetup& setup, const SceneDescription& description) {
+    const IntegratorSettings integrator = setup.plan.integrator;
+    setup.scene = compile(description);
+    setup.plan = make_plan(setup.scene, integrator);
+}
+
 /// The scene with a square film of this side.
 void resize(SceneSetup& setup, int side) {
     FilmSettings& film = setup.scene.description.film;
     film = {side, side};
     film.crop_width = 0;
-    const IntegratorSettings integrator = setup.plan.integrator;
-    SceneDescription description = setup.scene.description;
-    setup.scene = compile(description);
-    setup.plan = make_plan(setup.scene, integrator);
+    recompile(setup, SceneDescription(setup.scene.description));
+}
+
+/// A description with n point lights more, spread evenly over the bounds of the scene's triangles.
+SceneDescription with_lights(const Scene& scene, std::uint64_t n) {
+    glm::dvec3 low(-1.0), high(1.0);
+    if (!scene.triangles.empty()) {
+        low = glm::dvec3(HUGE_VAL), high = -low;
+        for (const auto& triangle : scene.triangles)
+            for (const std::uint32_t v : triangle) {
+                const glm::dvec3 p(scene.positions[v].x, scene.positions[v].y, scene.positions[v].z);
+                low = glm::min(low, p), high = glm::max(high, p);
+            }
+        const glm::dvec3 origin(scene.description.camera.to_world[3]);  // of the scene's own coordinates
+        low += origin, high += origin;
+    }
+    SceneDescription description = scene.description;
+    for (std::uint64_t i = 0; i < n; ++i) {
+        // Source: Roberts 2018, "The unreasonable effectiveness of quasirandom sequences" (R3: powers of 1 / 1.2207)
+        const glm::dvec3 r = glm::fract(glm::dvec3(0.8191725134, 0.6710436067, 0.5497004779) * static_cast<double>(i) + 0.5);
+        description.point_lights.push_back({low + (high - low) * r, Rgb(1.0f / static_cast<float>(n)), {}});
+    }
+    return description;
 }
 
 void print_row(std::uint64_t n, const Cost& c) {
@@ -102,6 +131,16 @@ Json measure_growth(const LimitsCommand& command, SceneSetup& setup) {
         const auto pixels = static_cast<std::uint64_t>(side) * static_cast<std::uint64_t>(side);
         print_row(pixels, c);
         by_pixels.push_back(json_row("pixels", pixels, c));
+    }
+    resize(setup, 2 * kSide);
+    fmt::print("  {:>10}{:>14}{:>12}{:>16}\n", "lights", "CPU ns/path", "rays/path", "peak memory MB");
+    Json& by_lights = figures["lights"] = Json::array();
+    const Scene plain = compile(setup.scene.description);
+    for (std::uint64_t more = 1; more <= 65536; more *= 4) {
+        recompile(setup, with_lights(plain, more));
+        const Cost c = cost(command, setup, 16);
+        print_row(setup.scene.lights.size(), c);
+        by_lights.push_back(json_row("lights", setup.scene.lights.size(), c));
     }
     return figures;
 }

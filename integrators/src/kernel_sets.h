@@ -17,8 +17,8 @@ inline constexpr EffectSet kSpecularEffects =
 /// Paths that are bounces on surfaces and nothing else.
 inline constexpr EffectSet kSurfaceEffects =
     EffectSet::all().without(Effect::medium).without(Effect::heterogeneous).without(Effect::null_boundary).without(Effect::mask);
-/// The batch kernel looks up textures by (u, v) alone, and always combines techniques.
-inline constexpr EffectSet kBatchAllEffects = kSurfaceEffects.without(Effect::mesh_attribute).without(Effect::one_technique);
+/// The batch kernel always combines techniques.
+inline constexpr EffectSet kBatchAllEffects = kSurfaceEffects.without(Effect::one_technique);
 
 /// All but what moves or is seen through instances, whose code is in the way of every hit.
 inline constexpr EffectSet kStillEffects = kBatchAllEffects.without(Effect::instancing).without(Effect::motion);

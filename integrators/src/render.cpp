@@ -25,13 +25,6 @@ bool earlier(const InvalidSample& a, const InvalidSample& b) noexcept {
     return a.id.index < b.id.index;
 }
 
-/// What the tiles of one render share.
-struct Job {
-    const WorkItem& work;
-    const Kernel& kernel;
-    Film& film;
-};
-
 void add_invalid(RenderStats& stats, const InvalidSample& sample) {
     ++stats.invalid_samples;
     stats.invalid.push_back(sample);
@@ -41,61 +34,60 @@ void add_invalid(RenderStats& stats, const InvalidSample& sample) {
     }
 }
 
-/// Up to a kernel's batch of samples, in pieces that the film takes: samples of one pixel and one chunk.
+/// Up to a kernel's batch of samples, in pieces that the film takes: samples of one pixel and one chunk. One a thread.
 class Batch {
 public:
-    Batch(const Job& job, Tracer& tracer, RenderStats& stats) : job_(job), tracer_(tracer), stats_(stats) {
-        ids_.reserve(job.kernel.batch);
-        radiance_.resize(job.kernel.batch);
+    Batch(const Kernel& kernel, const TraceJob& job) : most_(kernel.batch), tracer_(kernel.make(job)) {
+        ids_.reserve(most_);
+        radiance_.resize(most_);
     }
-    void add(Pixel pixel, std::uint64_t first, std::size_t count) {
-        if (ids_.size() + count > job_.kernel.batch) flush();
+    [[nodiscard]] const TraceStats& stats() const { return tracer_->stats(); }
+    void add(Pixel pixel, std::uint64_t first, std::size_t count, Film& film, RenderStats& stats) {
+        if (ids_.size() + count > most_) flush(film, stats);
         for (std::size_t i = 0; i < count; ++i) ids_.push_back({pixel, first + i});
         pieces_.push_back(count);
     }
-    void flush() {
+    void flush(Film& film, RenderStats& stats) {
         if (ids_.empty()) return;
-        tracer_.trace(ids_, std::span(radiance_).first(ids_.size()));
+        tracer_->trace(ids_, std::span(radiance_).first(ids_.size()));
         std::size_t at = 0;
         for (const std::size_t count : pieces_) {
             const std::span<Vec3f> piece(&radiance_[at], count);
             for (std::size_t i = 0; i < count; ++i)
                 if (InvalidSample invalid{InvalidSample::Kind::nan, ids_[at + i]}; is_invalid(piece[i], invalid.kind)) {
-                    add_invalid(stats_, invalid);
+                    add_invalid(stats, invalid);
                     piece[i] = Vec3f(0.0f);
                 }
-            job_.film.add(ids_[at].pixel, piece);
+            film.add(ids_[at].pixel, piece);
             at += count;
         }
-        stats_.paths += ids_.size();
+        stats.paths += ids_.size();
         ids_.clear();
         pieces_.clear();
     }
 
 private:
-    const Job& job_;
-    Tracer& tracer_;
-    RenderStats& stats_;
+    std::size_t most_;
+    std::unique_ptr<Tracer> tracer_;
     std::vector<SampleId> ids_;
     std::vector<Vec3f> radiance_;
     std::vector<std::size_t> pieces_;
 };
 
 /// All samples of a tile: chunk after chunk (aligned to multiples of Film::kChunk), for every pixel in turn.
-RenderStats render_tile(const Job& job, PixelRect tile, Tracer& tracer) {
+RenderStats render_tile(const WorkItem& work, PixelRect tile, Batch& batch, Film& film) {
     const FlushDenormals flush;
-    const double start = thread_seconds(), idle = tracer.stats().idle_seconds;
+    const double start = thread_seconds(), idle = batch.stats().idle_seconds;
     RenderStats stats;
-    Batch batch(job, tracer, stats);
-    const std::uint64_t end = job.work.first + job.work.count;
-    for (std::uint64_t at = job.work.first; at < end;) {
+    const std::uint64_t end = work.first + work.count;
+    for (std::uint64_t at = work.first; at < end;) {
         const std::uint64_t chunk_end = std::min(end, (at / Film::kChunk + 1) * Film::kChunk);
         for (std::int32_t y = tile.y; y < tile.y + tile.height; ++y)
-            for (std::int32_t x = tile.x; x < tile.x + tile.width; ++x) batch.add({x, y}, at, static_cast<std::size_t>(chunk_end - at));
+            for (std::int32_t x = tile.x; x < tile.x + tile.width; ++x) batch.add({x, y}, at, static_cast<std::size_t>(chunk_end - at), film, stats);
         at = chunk_end;
     }
-    batch.flush();
-    stats.cpu_seconds = thread_seconds() - start - (tracer.stats().idle_seconds - idle);
+    batch.flush(film, stats);
+    stats.cpu_seconds = thread_seconds() - start - (batch.stats().idle_seconds - idle);
     return stats;
 }
 
@@ -131,13 +123,12 @@ RenderResult render(const Scene& scene, const RenderPlan& plan, const SampleSour
     const Kernel& kernel = options.kernel != nullptr ? *options.kernel : choose_kernel(plan.effects);
     if (!kernel.effects.contains(plan.effects)) throw Error("kernel '" + std::string(kernel.name) + "' lacks an effect of the scene");
     RenderResult result{Film(work.rect, !plan.integrator.moments.empty()), {}};
-    const Job job{work, kernel, result.film};
     const std::int32_t side = tile_side(kernel, work.count);
     const std::int32_t columns = (work.rect.width + side - 1) / side, rows = (work.rect.height + side - 1) / side;
     std::vector<RenderStats> tiles(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
 
     const TraceJob trace_job{scene, plan, source};
-    tbb::enumerable_thread_specific<std::unique_ptr<Tracer>> tracers([&] { return kernel.make(trace_job); });
+    tbb::enumerable_thread_specific<Batch> batches([&] { return Batch(kernel, trace_job); });
 
     std::mutex progress_mutex;
     std::size_t done = 0;
@@ -149,7 +140,7 @@ RenderResult render(const Scene& scene, const RenderPlan& plan, const SampleSour
         const auto column = static_cast<std::int32_t>(i % static_cast<std::size_t>(columns)), row = static_cast<std::int32_t>(i / static_cast<std::size_t>(columns));
         const PixelRect tile{work.rect.x + column * side, work.rect.y + row * side, std::min(side, work.rect.width - column * side),
                              std::min(side, work.rect.height - row * side)};
-        tiles[i] = render_tile(job, tile, *tracers.local());
+        tiles[i] = render_tile(work, tile, batches.local(), result.film);
         if (options.progress) {
             const std::lock_guard lock(progress_mutex);
             options.progress(static_cast<double>(++done) / static_cast<double>(tiles.size()));
@@ -167,7 +158,7 @@ RenderResult render(const Scene& scene, const RenderPlan& plan, const SampleSour
     result.stats.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     for (const RenderStats& t : tiles) merge(result.stats, t);
     TraceStats traced;
-    for (const std::unique_ptr<Tracer>& t : tracers) merge(traced, t->stats());
+    for (const Batch& b : batches) merge(traced, b.stats());
     result.stats.rays = traced.rays;
     result.stats.tail_numbers = traced.tail_numbers;
     if (traced.timed_paths > 0)

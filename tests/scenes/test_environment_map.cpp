@@ -118,7 +118,7 @@ TEST_CASE("no direction leaves the map", "[scenes]") {
         CHECK(std::isfinite(pdf_of(map, d)));
     }
     for (const float x : {0.0f, 0.5f, kOneMinusUlp})
-        for (const float y : {0.0f, 0.5f, kOneMinusUlp}) CHECK(is_finite(environment_direction(map.cells(), {x, y})));
+        for (const float y : {0.0f, 0.5f, kOneMinusUlp}) CHECK(is_finite(environment_direction(map.cells(), Vec2f{x, y})));
 }
 
 TEST_CASE("a sample's density is positive and the radiance over it bounded, also by the poles of a large map", "[scenes]") {

@@ -9,18 +9,19 @@ template <EffectSet kEffects>
 }
 
 /// Calls f(lane, point) for layered lanes.
-template <class F>
+template <EffectSet kEffects, class F>
 void for_layered(const LocalBsdfPack& local, Mask layered, F&& f) {
     alignas(4 * kLanes) IntLanes side, geometry, primitive, instance;
     local.side.store(side);
     local.geometry.store(geometry);
     local.primitive.store(primitive);
     local.instance.store(instance);
-    const NumberLanes u(local.uv.x), v(local.uv.y), time(local.time);
+    const SurfaceUvLanes<kEffects> uv(local.uv);
+    const NumberLanes time(local.time);
     const VectorLanes n(local.n);
     for_lanes(layered, [&](int i) {
         f(i, LayeredPoint{static_cast<std::uint32_t>(side[i]),
-                          {u.x[i], v.x[i]},
+                          uv[i],
                           n[i],
                           static_cast<std::uint32_t>(geometry[i]),
                           static_cast<std::uint32_t>(primitive[i]),
@@ -37,7 +38,7 @@ template <EffectSet kEffects>
         const VectorLanes from(wo), to(wi);
         VectorLanes f_cos(out.f_cos);
         NumberLanes pdf(out.pdf_w);
-        for_layered(local, layered, [&](int i, const LayeredPoint& at) {
+        for_layered<kEffects>(local, layered, [&](int i, const LayeredPoint& at) {
             const BsdfValue v = eval_layered(scene, at, from[i], to[i]);
             f_cos.set(i, v.f_cos);
             pdf.x[i] = v.pdf_w;
@@ -58,7 +59,7 @@ template <EffectSet kEffects>
         VectorLanes wi(out.wi), weight(out.weight);
         NumberLanes pdf(out.pdf_w), eta(out.eta);
         std::uint32_t delta = 0;
-        for_layered(local, layered, [&](int i, const LayeredPoint& at) {
+        for_layered<kEffects>(local, layered, [&](int i, const LayeredPoint& at) {
             const BsdfSample s = sample_layered(scene, at, from[i], lobe.x[i], {x.x[i], y.x[i]});
             wi.set(i, s.wi);
             weight.set(i, s.weight);

@@ -64,7 +64,7 @@ template <EffectSet kEffects>
             return out;
         }
     if (scene.lights.size() > 1) {
-        const DiscreteSamplePack choice = sample_pack(scene.light_choice, active, u);
+        const DiscreteSamplePack choice = sample_pack(scene.light_choice, u);
         out.light = choice.index;
         out.probability = choice.probability;
     }
@@ -78,9 +78,9 @@ inline void choose_triangles(const Scene& scene, Mask mesh, Int32 light, Int32& 
         const DiscreteDistribution& triangles = scene.lights[0].triangles;
         triangle = Int32(0);
         if (triangles.size() > 1) {
-            const DiscreteSamplePack t = sample_pack(triangles, mesh, x);
-            triangle = t.index;
-            x = t.u;
+            const DiscreteSamplePack t = sample_pack(triangles, x);
+            triangle = select(mesh, t.index, triangle);
+            x = select(mesh, t.u, x);
         }
         return;
     }

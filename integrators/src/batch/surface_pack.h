@@ -2,10 +2,58 @@
 
 KOKSMA_MATHS_BEGIN
 
+/// As koksma::SurfaceUv.
+struct SurfaceUvPack {
+    Float x, y;
+    Int32 triangle;
+    Vec2<Float> barycentrics;
+};
+/// The same, lane by lane.
+template <EffectSet kEffects>
+class SurfaceUvLanes {
+public:
+    explicit SurfaceUvLanes(const SurfaceUvPack& uv) : x_(uv.x), y_(uv.y) {
+        if constexpr (kEffects.has(Effect::mesh_attribute)) {
+            uv.triangle.store(triangle_);
+            uv.barycentrics.x.store(b1_.x);
+            uv.barycentrics.y.store(b2_.x);
+        }
+    }
+    [[nodiscard]] SurfaceUv operator[](int lane) const {
+        SurfaceUv uv{x_.x[lane], y_.x[lane]};
+        if constexpr (kEffects.has(Effect::mesh_attribute)) {
+            uv.triangle = static_cast<std::uint32_t>(triangle_[lane]);
+            uv.barycentrics = {b1_.x[lane], b2_.x[lane]};
+        }
+        return uv;
+    }
+    void set(int lane, const SurfaceUv& uv) {
+        x_.x[lane] = uv.x;
+        y_.x[lane] = uv.y;
+        if constexpr (kEffects.has(Effect::mesh_attribute)) {
+            triangle_[lane] = static_cast<std::int32_t>(uv.triangle);
+            b1_.x[lane] = uv.barycentrics.x;
+            b2_.x[lane] = uv.barycentrics.y;
+        }
+    }
+    [[nodiscard]] SurfaceUvPack pack() const {
+        SurfaceUvPack uv{x_.pack(), y_.pack(), Int32{}, {}};
+        if constexpr (kEffects.has(Effect::mesh_attribute)) {
+            uv.triangle = Int32::load(triangle_);
+            uv.barycentrics = {b1_.pack(), b2_.pack()};
+        }
+        return uv;
+    }
+
+private:
+    NumberLanes x_, y_, b1_, b2_;
+    alignas(4 * kLanes) IntLanes triangle_;
+};
+
 /// As koksma::Surface, with what its geometry says.
 struct SurfacePack {
     Vec3<Float> p, p_error, ng, n, dpdu;
-    Vec2<Float> uv;
+    SurfaceUvPack uv;
     Int32 geometry, primitive, material, light;
     Int32 instance;  ///< with the ray's time, only with the effect instancing
     Float time;
@@ -21,13 +69,14 @@ template <int byte>
 }
 
 struct TrianglePack {
-    Int32 index[3];
+    Int32 which, index[3];
     Vec3<Float> v0, v1, v2;
 };
 [[nodiscard]] inline TrianglePack gather_triangle(const Scene& scene, Int32 triangle) {
     const std::int32_t* indices = reinterpret_cast<const std::int32_t*>(scene.triangles.data());
     const Int32 at = triangle * Int32(3);
     TrianglePack t;
+    t.which = triangle;
     for (int i = 0; i < 3; ++i) t.index[i] = gather(indices, at + Int32(i));
     t.v0 = gather_vector(scene.positions.data(), 0, t.index[0]);
     t.v1 = gather_vector(scene.positions.data(), 0, t.index[1]);
@@ -90,7 +139,8 @@ template <EffectSet kEffects>
         assign<Float>(m, s.n, -s.n);
     }
     if constexpr (kEffects.has(Effect::texture) || kEffects.has(Effect::anisotropic)) {
-        s.uv = b;
+        s.uv.x = b.x;
+        s.uv.y = b.y;
         s.dpdu = Vec3<Float>(Float(0.0f));
         if (const Mask m = active & flag<3>(word); any(m)) {
             const auto uv = [&](int i) {
@@ -103,22 +153,26 @@ template <EffectSet kEffects>
             if constexpr (kEffects.has(Effect::anisotropic)) assign<Float>(m, s.dpdu, direction_of_u(t.v0, t.v1, t.v2, uv0, uv1, uv2));
         }
     }
+    if constexpr (kEffects.has(Effect::mesh_attribute)) {
+        s.uv.triangle = t.which;
+        s.uv.barycentrics = b;
+    }
     return s;
 }
 
 /// Puts a point that was computed alone into its lane.
+template <EffectSet kEffects>
 struct SurfaceLanes {
     VectorLanes p, p_error, ng, n, dpdu;
-    NumberLanes u, v;
-    explicit SurfaceLanes(const SurfacePack& s) : p(s.p), p_error(s.p_error), ng(s.ng), n(s.n), dpdu(s.dpdu), u(s.uv.x), v(s.uv.y) {}
+    SurfaceUvLanes<kEffects> uv;
+    explicit SurfaceLanes(const SurfacePack& s) : p(s.p), p_error(s.p_error), ng(s.ng), n(s.n), dpdu(s.dpdu), uv(s.uv) {}
     void set(int lane, const Surface& s) {
         p.set(lane, s.p);
         p_error.set(lane, s.p_error);
         ng.set(lane, s.ng);
         n.set(lane, s.n);
         dpdu.set(lane, s.dpdu);
-        u.x[lane] = s.uv.x;
-        v.x[lane] = s.uv.y;
+        uv.set(lane, s.uv);
     }
     void get(SurfacePack& s) const {
         s.p = p.pack();
@@ -126,7 +180,7 @@ struct SurfaceLanes {
         s.ng = ng.pack();
         s.n = n.pack();
         s.dpdu = dpdu.pack();
-        s.uv = {u.pack(), v.pack()};
+        s.uv = uv.pack();
     }
 };
 
@@ -166,7 +220,7 @@ template <EffectSet kEffects>
     }
     if constexpr (kAlone)
         if (const Mask others = active & !meshes; any(others)) {
-            SurfaceLanes lanes(s);
+            SurfaceLanes<kEffects> lanes(s);
             const VectorLanes origins(o), directions(d);
             const NumberLanes times(time);
             alignas(4 * kLanes) IntLanes geometries, primitives, instances;
@@ -194,16 +248,17 @@ template <EffectSet kEffects>
 
 /// The value of a texture, whose reference is a member of the records that an index selects.
 template <EffectSet kEffects, class Record>
-[[nodiscard]] Vec3<Float> texture_pack(const Scene& scene, const Record* records, std::size_t offset, Int32 index, Mask active, Vec2<Float> uv) {
+[[nodiscard]] Vec3<Float> texture_pack(const Scene& scene, const Record* records, std::size_t offset, Int32 index, Mask active,
+                                      const SurfaceUvPack& uv) {
     Vec3<Float> value = gather_vector(records, offset + offsetof(TextureRef, constant), index);
     if constexpr (kEffects.has(Effect::texture)) {
         const Int32 texture = gather_int(records, offset + offsetof(TextureRef, index), index);
         if (const Mask m = active & (texture >= Int32(0)); any(m)) {
             VectorLanes lanes(value);
-            const NumberLanes u(uv.x), v(uv.y);
+            const SurfaceUvLanes<kEffects> places(uv);
             alignas(4 * kLanes) IntLanes textures;
             texture.store(textures);
-            for_lanes(m, [&](int i) { lanes.set(i, lookup(scene.textures[static_cast<std::size_t>(textures[i])], {u.x[i], v.x[i]})); });
+            for_lanes(m, [&](int i) { lanes.set(i, koksma::texture_value<kEffects>(scene, TextureRef{Vec3f{}, textures[i]}, places[i])); });
             value = lanes.pack();
         }
     }
@@ -215,7 +270,7 @@ struct LocalBsdfPack {
     FrameOf<Float> frame;
     Int32 side, geometry, primitive, instance;  ///< where a layered material is asked, with
     Float time;
-    Vec2<Float> uv;
+    SurfaceUvPack uv;
     Vec3<Float> n;
 };
 

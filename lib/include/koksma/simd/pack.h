@@ -228,8 +228,14 @@ struct Double {
     static HWY_INLINE Double of(double x) { return {hn::Set(Tag<double>(), x)}; }
     static HWY_INLINE Double of(Int32 x) { return {hn::PromoteTo(Tag<double>(), x.raw)}; }
     HWY_INLINE Int32 truncated() const { return hn::DemoteTo(Tag<std::int32_t>(), low); }
+    static HWY_INLINE Double of(Float x) { return {hn::PromoteTo(Tag<double>(), x.raw)}; }
+    HWY_INLINE Float rounded() const { return hn::DemoteTo(Tag<float>(), low); }
     friend HWY_INLINE Double operator+(Double a, Double b) { return {hn::Add(a.low, b.low)}; }
+    friend HWY_INLINE Double operator-(Double a, Double b) { return {hn::Sub(a.low, b.low)}; }
     friend HWY_INLINE Double operator*(Double a, Double b) { return {hn::Mul(a.low, b.low)}; }
+    friend HWY_INLINE Double operator/(Double a, Double b) { return {hn::Div(a.low, b.low)}; }
+    friend HWY_INLINE Mask operator<=(Double a, Double b) { return Double{hn::IfThenElse(hn::Le(a.low, b.low), of(1.0).low, of(0.0).low)}.truncated() != Int32(0); }
+    static HWY_INLINE Double gather(const double* base, Int32 index) { return of(base[hn::GetLane(index.raw)]); }
 #else
     using Half = hn::Half<Tag<std::int32_t>>;
     Raw low, high;
@@ -239,8 +245,28 @@ struct Double {
     }
     /// Of numbers that fit into 32 bits.
     HWY_INLINE Int32 truncated() const { return hn::Combine(Tag<std::int32_t>(), hn::DemoteTo(Half(), high), hn::DemoteTo(Half(), low)); }
+    static HWY_INLINE Double of(Float x) {
+        const hn::Half<Tag<float>> half;
+        return {hn::PromoteTo(Tag<double>(), hn::LowerHalf(half, x.raw)), hn::PromoteTo(Tag<double>(), hn::UpperHalf(half, x.raw))};
+    }
+    HWY_INLINE Float rounded() const {
+        const hn::Half<Tag<float>> half;
+        return hn::Combine(Tag<float>(), hn::DemoteTo(half, high), hn::DemoteTo(half, low));
+    }
     friend HWY_INLINE Double operator+(Double a, Double b) { return {hn::Add(a.low, b.low), hn::Add(a.high, b.high)}; }
+    friend HWY_INLINE Double operator-(Double a, Double b) { return {hn::Sub(a.low, b.low), hn::Sub(a.high, b.high)}; }
     friend HWY_INLINE Double operator*(Double a, Double b) { return {hn::Mul(a.low, b.low), hn::Mul(a.high, b.high)}; }
+    friend HWY_INLINE Double operator/(Double a, Double b) { return {hn::Div(a.low, b.low), hn::Div(a.high, b.high)}; }
+    friend HWY_INLINE Mask operator<=(Double a, Double b) {
+        const auto one = of(1.0).low, zero = of(0.0).low;
+        return Double{hn::IfThenElse(hn::Le(a.low, b.low), one, zero), hn::IfThenElse(hn::Le(a.high, b.high), one, zero)}.truncated() != Int32(0);
+    }
+    /// base[index] of each lane.
+    static HWY_INLINE Double gather(const double* base, Int32 index) {
+        const hn::Rebind<std::int64_t, Tag<double>> wide;
+        return {hn::GatherIndex(Tag<double>(), base, hn::PromoteTo(wide, hn::LowerHalf(Half(), index.raw))),
+                hn::GatherIndex(Tag<double>(), base, hn::PromoteTo(wide, hn::UpperHalf(Half(), index.raw)))};
+    }
 #endif
     static HWY_INLINE Double of(UInt32 x) { return of(as_int(x ^ UInt32(0x80000000u))) + of(0x1p31); }
 };
