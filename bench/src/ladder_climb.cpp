@@ -26,6 +26,8 @@ LadderResult climb(const LadderStep& step, Technique technique, const Registry& 
     const Moments m = moments(means);
     result.error = m.mean - 1.0;
     result.half_width = student_t_factor(0.99, m.n - 1) * std::sqrt(m.variance / m.n);
+    // Where no sample has met the light, nothing is known: replicates that agree on 0 are no interval.
+    if (m.mean == 0.0) result.half_width = 1.0;
     return result;
 }
 

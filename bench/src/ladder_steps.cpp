@@ -44,8 +44,8 @@ Ladder light_size() {
 }
 
 Ladder distance() {
-    Ladder l{"distance", "Distance of a light of 1e-4 sr", "distance in metres", "as above: 0.5 at every distance", 1e-3, kAll, {}};
-    for (const double d : decades(0, 6)) l.steps.push_back({d, floor_below_sphere(1e-4, d), 0.5, 1 << 16});
+    Ladder l{"distance", "Distance of a light of 0.01 sr", "distance in metres", "as above: 0.5 at every distance", 1e-3, kAll, {}};
+    for (const double d : decades(0, 6)) l.steps.push_back({d, floor_below_sphere(1e-2, d), 0.5, 1 << 16});
     return l;
 }
 
@@ -127,9 +127,10 @@ Ladder albedo() {
     for (const double loss : {0.5, 0.1, 0.03, 0.01, 3e-3, 1e-3, 3e-4, 1e-4}) {
         const auto rho = static_cast<float>(1.0 - loss), le = static_cast<float>(loss);
         LadderStep step{loss, furnace(glm::dmat4(1.0), 1.0, rho, le), double{le} / (1.0 - double{rho}),
-                        loss < 1e-3   ? 48u
-                        : loss < 5e-3 ? 128u
-                                      : 512u};
+                        loss < 1e-3   ? 8u
+                        : loss < 5e-3 ? 16u
+                        : loss < 0.02 ? 64u
+                                      : 256u};
         step.sampler = "random";
         l.steps.push_back(std::move(step));
     }

@@ -7,8 +7,10 @@
 
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <deque>
+#include <limits>
 #include <string>
 #include <utility>
 #include <variant>
@@ -88,6 +90,10 @@ void bounds_user(const RTCBoundsFunctionArguments* args) {
     args->bounds_o->upper_z = high(center.z, extent.z);
 }
 
+/// Rays begin after their origin. Where a coordinate of a wall is exactly 0, so is the bound of its error, and rays that leave the wall start in it;
+/// Embree's robust mode meets what lies at t = 0.
+constexpr float after_start(float t_near) noexcept { return std::max(t_near, std::numeric_limits<float>::min()); }
+
 RTCRay embree_ray(const Ray& ray) noexcept {
     RTCRay r{};
     r.org_x = ray.o.x;
@@ -96,7 +102,7 @@ RTCRay embree_ray(const Ray& ray) noexcept {
     r.dir_x = ray.d.x;
     r.dir_y = ray.d.y;
     r.dir_z = ray.d.z;
-    r.tnear = ray.t_near;
+    r.tnear = after_start(ray.t_near);
     r.tfar = ray.t_far;
     r.time = ray.time;
     r.mask = ~0u;
@@ -271,11 +277,13 @@ bool Accelerator::occluded(const Ray& ray) const noexcept {
 
 template <int N>
 void Accelerator::intersect(RayPacket<N>& rays, const std::int32_t* valid, Coherence coherence) const noexcept {
+    for (float& t : rays.t_near) t = after_start(t);
     if (impl_->watcher) impl_->watcher({N, false, coherence, rays.o_x, valid});
     embree::intersect(valid, impl_->scene, reinterpret_cast<typename Packet<N>::RayHit&>(rays), embree::IntersectQuery(coherence == Coherence::coherent));
 }
 template <int N>
 void Accelerator::occluded(RayPacket<N>& rays, const std::int32_t* valid, Coherence coherence) const noexcept {
+    for (float& t : rays.t_near) t = after_start(t);
     if (impl_->watcher) impl_->watcher({N, true, coherence, rays.o_x, valid});
     embree::occluded(valid, impl_->scene, reinterpret_cast<typename Packet<N>::Ray&>(rays), embree::OccludedQuery(coherence == Coherence::coherent));
 }
