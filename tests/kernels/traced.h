@@ -56,7 +56,6 @@ struct NamedScene {
         out.push_back({std::move(name), std::move(d)});
     };
     for (EffectScene& s : effect_scenes())
-        if (s.effect != Effect::mesh_attribute)  // the reference kernel alone has it
             add("effect " + std::string(name(s.effect)), std::move(s.description));
     add("hills", hills(false));
     add("glass hills", hills(true));

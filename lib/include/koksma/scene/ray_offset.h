@@ -41,7 +41,8 @@ template <class Real>
 /// Source: Pharr, Jakob and Humphreys 2023, Physically Based Rendering, 4th ed., section 6.8.6
 template <class Real>
 [[nodiscard]] Vec3<Real> offset_origin(Vec3<Real> p, Vec3<Real> p_error, Vec3<Real> ng, Vec3<Real> w) noexcept {
-    const Real d = dot(abs(ng), p_error);
+    // A plane through the camera, at coordinate 0, has no error at all, but a ray that starts in it would meet it again at distance 0.
+    const Real d = dot(abs(ng), p_error) + Real(1e-20f);
     const Vec3<Real> offset = ng * select(dot(w, ng) < Real(0.0f), -d, d);
     Vec3<Real> q = p + offset;
     // The addition rounds: step one float further out wherever there is an offset.
