@@ -244,6 +244,31 @@ struct EffectScene {
     add_shape(d, SphereShape{}, Matrix(1.0), 0).animation = {{0.0, translated({-1, 0.4, 1}) * scaled(0.2)},
                                                              {1.0, translated({-1, 1.0, 1}) * scaled(0.2)}};
     add(Effect::motion, d);
+
+    const auto with_box = [](bool heterogeneous, Rgb sigma_t) {
+        SceneDescription box = floor_scene();
+        box.integrator.volumetric = true;
+        Medium fog;
+        fog.heterogeneous = heterogeneous;
+        fog.sigma_t = ConstantVolume{sigma_t, translated({-0.5, 0, -0.5})};
+        if (heterogeneous) fog.sigma_t = GridVolume{grid(2, 2, 1, {0.0f, 1.0f, 2.0f, 0.5f}), GridVolume::Filter::trilinear, GridVolume::Wrap::clamp, translated({-0.5, 0, -0.5})};
+        fog.g = 0.4;
+        box.media = {fog};
+        const std::uint32_t nothing = add_material(box, Null{});
+        add_shape(box, CubeShape{}, translated({0, 0.5, 0}) * scaled(0.5), nothing).interior = 0;
+        return box;
+    };
+    add(Effect::medium, with_box(false, Rgb(1.0f)));
+    add(Effect::medium, with_box(false, Rgb(0.2f, 1.0f, 3.0f)));
+    add(Effect::heterogeneous, with_box(true, Rgb(1.0f)));
+    add(Effect::null_boundary, with_box(false, Rgb(1.0f)));
+    d = floor_scene();
+    d.integrator.volumetric = true;
+    Material leaf;
+    leaf.front = Diffuse{};
+    const std::uint32_t leaves = add_material(d, Mask{Rgb(0.4f), {leaf}});
+    for (int i = 0; i < 3; ++i) add_shape(d, RectangleShape{}, translated({0.2 * i - 0.2, 0.5 + 0.2 * i, 0}) * kUp * scaled(0.5), leaves);
+    add(Effect::mask, d);
     return out;
 }
 

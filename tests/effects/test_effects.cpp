@@ -29,6 +29,9 @@ TEST_CASE("a scene's effects are found and give the path its slots", "[effects]"
         CHECK(has_slot(SlotRole::light_choice) == e.has(Effect::light_choice));
         CHECK(has_slot(SlotRole::lobe) == e.has(Effect::lobe));
         CHECK(has_slot(SlotRole::roulette) == e.has(Effect::roulette));
+        CHECK(has_slot(SlotRole::distance) == e.has(Effect::medium));
+        CHECK(has_slot(SlotRole::collision) == e.has(Effect::heterogeneous));
+        CHECK(has_slot(SlotRole::passage) == e.has(Effect::mask));
         CHECK(has_slot(SlotRole::light_position) == (e.has(Effect::area_light) || e.has(Effect::environment)));
     }
     CHECK(seen == (1 << kEffectCount) - 1);
@@ -55,4 +58,32 @@ TEST_CASE("a material that no shape uses calls for no effect", "[effects]") {
     SceneDescription d = floor_scene();
     static_cast<void>(add_material(d, Dielectric{}));
     CHECK_FALSE(Ready(d).plan.effects.has(Effect::dielectric));
+}
+
+TEST_CASE("the surface integrator knows neither media nor crossings", "[effects]") {
+    for (const EffectScene& s : effect_scenes()) {
+        SceneDescription d = s.description;
+        d.integrator.volumetric = false;
+        const Ready ready(d);
+        for (const Effect e : {Effect::medium, Effect::heterogeneous, Effect::null_boundary, Effect::mask}) CHECK_FALSE(ready.plan.effects.has(e));
+    }
+}
+
+TEST_CASE("a path has slots for the way to where only emission counts", "[effects]") {
+    for (const EffectScene& s : effect_scenes()) {
+        if (s.effect != Effect::medium && s.effect != Effect::mask) continue;
+        const Ready ready(s.description);
+        const SlotRun last = ready.plan.layout.bounce(ready.plan.layout.bounce_count() - 1);
+        CHECK(ready.plan.layout.bounce_count() == static_cast<std::size_t>(s.description.integrator.max_depth));
+        CHECK(dimension_count(last) == 1);
+        CHECK(last.front().role == (s.effect == Effect::medium ? SlotRole::distance : SlotRole::passage));
+    }
+}
+
+TEST_CASE("who called for an effect is known", "[effects]") {
+    SceneDescription d = effect_scenes().back().description;
+    d.materials.back().where = {"leaf.xml", 7, 3};
+    const Ready ready(d);
+    REQUIRE(ready.scene.called_for.contains(Effect::mask));
+    CHECK(ready.scene.called_for.at(Effect::mask).text() == "leaf.xml:7:3");
 }

@@ -1,4 +1,4 @@
-// OBJ, PLY and serialized meshes, told apart by how they begin.
+// OBJ, PLY and serialized meshes, and volumes, told apart by how they begin.
 
 #include "fuzz_file.h"
 
@@ -12,6 +12,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     koksma::fuzz::expect_error_at_most([&] {
         if (bytes.starts_with("ply"))
             (void)koksma::load_ply(file);
+        else if (bytes.starts_with("VOL"))
+            (void)koksma::load_vol(file);
         else if (bytes.starts_with("\x1c\x04"))
             (void)koksma::load_serialized(file, size % 4 == 0 ? 1 : 0);
         else

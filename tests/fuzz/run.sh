@@ -9,7 +9,7 @@ ninja -C build/fuzz fuzz_scene fuzz_mesh fuzz_image
 seeds=build/fuzz/seeds
 mkdir -p $seeds/scene $seeds/mesh $seeds/image build/fuzz/found build/fuzz/files
 cp scenes/*.xml $seeds/scene/
-for f in $(find scenes -name '*.obj' -o -name '*.ply' -o -name '*.serialized'); do [ "$(wc -c < "$f")" -lt 65536 ] && cp "$f" $seeds/mesh/; done
+for f in $(find scenes -name '*.obj' -o -name '*.ply' -o -name '*.serialized' -o -name '*.vol'); do [ "$(wc -c < "$f")" -lt 65536 ] && cp "$f" $seeds/mesh/; done
 python3 tests/fuzz/seeds.py $seeds
 for d in scenes/*/; do cp -r "$d" build/fuzz/files/; done
 for what in scene mesh image; do

@@ -42,6 +42,8 @@ for version in 3, 4:
     write(f"mesh/v{version}.serialized", first + second + table)
     write(f"mesh/v{version}-colors.serialized", second)
 
+write("mesh/cells.vol", b"VOL\x03" + struct.pack("<5i6f", 1, 2, 1, 3, 1, 0, 0, 0, 1, 1, 1) + struct.pack("<6f", *range(6)))
+
 # ---- pictures
 def chunk(kind, data):
     return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
@@ -75,4 +77,10 @@ write("scene/all.xml", """<scene version="3.0.0"><default name="n" value="4"/><i
 <shape type="rectangle"><transform name="to_world"><rotate x="1" angle="30"/><lookat origin="1,2,3" target="0,0,0" up="0,1,0"/><matrix value="1 0 0 0 1 0 0 0 1"/></transform></shape>
 <emitter type="spot"><float name="cutoff_angle" value="30"/><texture name="texture" type="checkerboard"/></emitter>
 <emitter type="directional"><vector name="direction" value="0,0,1"/></emitter><emitter type="projector"/><emitter type="constant"/></scene>
+""")
+write("scene/media.xml", """<scene version="3.0.0"><integrator type="volpath"/><sensor type="perspective"><ref id="m"/><film type="hdrfilm"/></sensor>
+<medium type="homogeneous" id="m"><rgb name="sigma_t" value="1 2 3"/><float name="scale" value="2"/><phase type="hg"><float name="g" value=".5"/></phase></medium>
+<shape type="sphere"><bsdf type="null"/><ref name="interior" id="m"/><medium name="exterior" type="heterogeneous">
+<volume name="sigma_t" type="gridvolume"><string name="filename" value="smoke/plume.vol"/><boolean name="use_grid_bbox" value="true"/></volume>
+<volume name="albedo" type="constvolume"><float name="value" value=".5"/></volume></medium></shape></scene>
 """)

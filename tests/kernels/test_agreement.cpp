@@ -57,6 +57,7 @@ TEST_CASE("all variants of a kernel give the same bytes", "[kernels]") {
             for (const std::string& target : batch ? targets : std::vector<std::string>{""}) {
                 const Target use(target);
                 const std::vector<const Kernel*> variants = family(ready.plan.effects, batch);
+                if (batch && variants.empty()) continue;  // the reference kernel's alone
                 REQUIRE(!variants.empty());
                 const auto film = [&](const Kernel* k) {
                     RenderOptions o;

@@ -53,7 +53,7 @@ TEST_CASE("a file that is not there is named", "[unit][scene]") {
 
 TEST_CASE("unknown elements, types, parameters and attributes are refused with the supported names", "[unit][scene]") {
     const SceneFiles files;
-    CHECK_ERROR(files.error_of("  <medium type=\"homogeneous\"/>"), "scene.xml:2:3", "<medium>", "supported:", "shape", "emitter");
+    CHECK_ERROR(files.error_of("  <fog type=\"homogeneous\"/>"), "scene.xml:2:3", "<fog>", "supported:", "shape", "emitter");
     CHECK_ERROR(files.error_of("<shape type=\"spere\"/>"), "scene.xml:2:1", "'spere'", "did you mean 'sphere'?", "rectangle, disk");
     CHECK_ERROR(files.error_of("<shape type=\"sphere\">\n <float name=\"radios\" value=\"1\"/></shape>"), "scene.xml:3:2", "'radios'",
                 "did you mean 'radius'?", "center");

@@ -286,7 +286,11 @@ TEST_CASE("integrators are path, direct, volpath, and moment around one of them"
     CHECK_ERROR(error("\"direct\">" + integer("shading_samples", "0")), "'shading_samples' is 0", "only 1");
     CHECK_ERROR(error("\"direct\">" + integer("max_depth", "3")), "'max_depth'", "shading_samples");
     CHECK_ERROR(error("\"moment\">"), "takes one integrator");
-    CHECK_ERROR(error("\"ptracer\">"), "'ptracer'", "path, direct, volpath, moment");
+    CHECK_ERROR(error("\"ptracer\">"), "'ptracer'", "path, direct, volpath, volpathmis, moment");
+    CHECK_FALSE(load("\"path\">").volumetric);
+    CHECK_FALSE(load("\"direct\">").volumetric);
+    CHECK(load("\"volpathmis\">").volumetric);
+    CHECK(load("\"moment\"><integrator type=\"volpath\"/>").volumetric);
 }
 
 TEST_CASE("folders of <path> are searched first", "[unit][scene]") {

@@ -108,4 +108,13 @@ inline void look_narrowly(SceneDescription& d, glm::dvec3 origin, glm::dvec3 tar
     return out;
 }
 
+/// One channel, cells in the order (z, y, x).
+[[nodiscard]] inline std::shared_ptr<const VolumeGrid> grid(std::int32_t nx, std::int32_t ny, std::int32_t nz, std::vector<float> values) {
+    auto out = std::make_shared<VolumeGrid>();
+    out->size = {nx, ny, nz};
+    out->channels = static_cast<std::int32_t>(values.size()) / (nx * ny * nz);
+    out->values = std::move(values);
+    return out;
+}
+
 }  // namespace koksma::testing

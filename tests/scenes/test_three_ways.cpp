@@ -4,6 +4,7 @@
 #include <koksma/scene/light_choice.h>
 #include <koksma/scene/light_sampling.h>
 
+#include "lamps.h"
 #include "render_scene.h"
 #include "uniform.h"
 
@@ -13,76 +14,6 @@ using namespace koksma::testing;
 namespace {
 
 constexpr EffectSet kAll = EffectSet::all();
-
-/// Luminous kinds that are tested against every BSDF.
-enum class Kind { rectangle, sphere, inward_sphere, disk, mesh, textured, point, spot, projector, directional, cylinder, inward_cylinder, constant, map, many };
-constexpr Kind kKinds[] = {Kind::rectangle, Kind::sphere, Kind::inward_sphere, Kind::disk, Kind::mesh, Kind::textured, Kind::point, Kind::spot, Kind::projector, Kind::directional, Kind::cylinder, Kind::inward_cylinder, Kind::constant, Kind::map, Kind::many};
-constexpr const char* kNames[] = {"rectangle", "sphere", "inward sphere", "disk", "mesh", "textured rectangle", "point", "spot", "projector", "directional", "cylinder", "inward cylinder", "constant sky", "environment map", "many lights"};
-
-void add_lamp(SceneDescription& d, Kind kind) {
-    // In the mirror direction of the camera, more or less.
-    const Matrix at = translated({-1.2, 1.3, 0.1}) * rotated({0, 0, 1}, -40) * scaled(0.6) * kDown;
-    switch (kind) {
-        case Kind::rectangle: add_light(d, RectangleShape{}, at, Rgb(2.0f)); break;
-        case Kind::sphere: add_light(d, SphereShape{}, at, Rgb(2.0f)); break;
-        case Kind::inward_sphere: add_light(d, SphereShape{}, translated({0.3, 0.2, -0.1}) * scaled(4), Rgb(0.5f)).flip_normals = true; break;
-        case Kind::disk: add_light(d, DiskShape{}, at * scaled({1.2, 0.7, 1}), Rgb(2.0f)); break;
-        case Kind::mesh:
-            add_light(d, mesh({{-1, -1, 0}, {1, -1, 0}, {0.5f, 1, 0.3f}, {-1.5f, 0.5f, -0.2f}, {0, 0, 0}}, {{0, 1, 2}, {0, 2, 3}, {4, 4, 1}}), at, Rgb(2.0f));
-            break;
-        case Kind::textured: {
-            BitmapTexture t;
-            t.image = image(4, 2, {Rgb(0.0f), Rgb(4.0f), Rgb(1.0f), Rgb(9.0f), Rgb(0.2f), Rgb(3.0f), Rgb(0.0f), Rgb(7.0f)});
-            t.wrap = BitmapTexture::Wrap::mirror;
-            add_light(d, RectangleShape{}, at, t);
-            break;
-        }
-        case Kind::point: d.point_lights.push_back({{-1.2, 1.3, 0.1}, Rgb(2.0f), {}}); break;
-        case Kind::spot: {
-            SpotLight s;
-            s.to_world = look_at({-1.2, 1.3, 0.1}, {0.2, 0, 0});
-            s.intensity = Rgb(2.0f);
-            s.beam_degrees = 1.0;
-            d.delta_lights.push_back(s);
-            break;
-        }
-        case Kind::projector: {
-            ProjectorLight p;
-            p.to_world = look_at({-1.2, 1.3, 0.1}, {0.2, 0, 0});
-            d.delta_lights.push_back(p);
-            break;
-        }
-        case Kind::directional: d.delta_lights.push_back(DirectionalLight{{1.2, -1.3, 0.2}, Rgb(2.0f), {}}); break;
-        case Kind::cylinder: add_light(d, CylinderShape{{0, -0.6, 0}, {0.1, 0.6, 0.2}, 0.2}, translated({-1.2, 1.3, 0.1}), Rgb(2.0f)); break;
-        case Kind::inward_cylinder: add_light(d, CylinderShape{{0, -3, 0}, {0.2, 3, 0.1}, 3.0}, Matrix(1.0), Rgb(0.5f)).flip_normals = true; break;
-        case Kind::constant: d.environment = ConstantEnvironment{}; break;
-        case Kind::map: {
-            MapEnvironment m;
-            std::vector<Rgb> texels;
-            for (int y = 0; y < 8; ++y)
-                for (int x = 0; x < 16; ++x) texels.emplace_back(x == 5 && y == 2 ? 20.0f : (x * y) % 5 == 0 ? 0.0f : 0.1f * static_cast<float>(x));
-            m.image = image(16, 8, std::move(texels));
-            m.to_world = rotated({0.6, 0.8, 0}, 50);
-            d.environment = m;
-            break;
-        }
-        case Kind::many: {
-            // A cloud of loose triangles, a grid of rectangles and a sky: the light tree with all that it tells apart.
-            std::vector<glm::vec3> corners;
-            std::vector<std::array<std::uint32_t, 3>> triangles;
-            for (std::uint32_t i = 0; i < 24; ++i) {
-                const auto x = static_cast<float>(i % 5), y = static_cast<float>(i % 7), z = static_cast<float>(i % 3);
-                const glm::vec3 c(0.4f * x - 0.8f, 0.3f * y - 0.9f, 0.2f * z);
-                corners.insert(corners.end(), {c, c + glm::vec3(0.2f, 0.02f * y, 0.05f * x), c + glm::vec3(0.05f * z, 0.25f, 0.03f * x)});
-                triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
-            }
-            add_light(d, mesh(corners, triangles), at, Rgb(6.0f));
-            for (int i = 0; i < 9; ++i) add_light(d, RectangleShape{}, translated({0.4 * (i % 3), 1.5, 0.4 * (i / 3)}) * scaled(0.1) * kDown, Rgb(1.0f + static_cast<float>(i)));
-            d.environment = ConstantEnvironment{Rgb(0.1f), {}};
-            break;
-        }
-    }
-}
 
 struct Case {
     std::string name;
@@ -146,7 +77,7 @@ std::vector<Case> cases() {
             {"two-sided ggx 0.2 from behind", rough(ggx, 0.2f, 0.2f), true, true}};
 }
 
-SceneDescription scene_of(const Case& c, Kind kind) {
+SceneDescription scene_of(const Case& c, LampKind kind) {
     SceneDescription d = empty_scene();
     const std::uint32_t m = add_material(d, c.material, c.two_sided);
     add_shape(d, RectangleShape{}, scaled(2) * (c.from_behind ? kDown : kUp), m);
@@ -242,7 +173,7 @@ TEST_CASE("light sampling, BSDF sampling and both agree with the path kernel, fo
     constexpr int kDraws = 1 << 15;
     std::uint32_t seed = 1;
     for (const Case& c : cases())
-        for (const Kind kind : kKinds) {
+        for (const LampKind kind : kLampKinds) {
             const Ready ready(scene_of(c, kind));
             const Point point(ready.scene);
             Uniform u(seed++);
@@ -250,7 +181,7 @@ TEST_CASE("light sampling, BSDF sampling and both agree with the path kernel, fo
             const Measured bsdf = average(kDraws, [&] { return point.by_bsdf(u, false); });
             const Measured both = average(kDraws, [&] { return point.by_light(u, true) + point.by_bsdf(u, true); });
             const Measured kernel = measure(ready, 2048, 8);
-            INFO(c.name << " under " << kNames[static_cast<int>(kind)] << ": light " << light.mean << " +- " << light.standard_error << ", BSDF " << bsdf.mean
+            INFO(c.name << " under " << kLampNames[static_cast<int>(kind)] << ": light " << light.mean << " +- " << light.standard_error << ", BSDF " << bsdf.mean
                         << " +- " << bsdf.standard_error << ", both " << both.mean << " +- " << both.standard_error << ", kernel " << kernel.mean
                         << " +- " << kernel.standard_error);
             // Five standard errors of the difference, and 2e-4 for float.
@@ -260,8 +191,8 @@ TEST_CASE("light sampling, BSDF sampling and both agree with the path kernel, fo
             CHECK(kernel.mean > 0.0);
             CHECK(kernel.invalid == 0);
             CHECK(agree(light, kernel));
-            CHECK(ready.plan.effects.has(Effect::many_lights) == (kind == Kind::many));
-            if (kind == Kind::point || kind == Kind::spot || kind == Kind::projector || kind == Kind::directional) {
+            CHECK(ready.plan.effects.has(Effect::many_lights) == (kind == LampKind::many));
+            if (kind == LampKind::point || kind == LampKind::spot || kind == LampKind::projector || kind == LampKind::directional) {
                 CHECK(bsdf.mean == 0.0);
             } else {
                 CHECK(agree(bsdf, kernel));
@@ -273,7 +204,7 @@ TEST_CASE("light sampling, BSDF sampling and both agree with the path kernel, fo
 }
 
 TEST_CASE("light sampling and light_pdf give one density", "[scenes]") {
-    for (const Kind kind : {Kind::rectangle, Kind::sphere, Kind::inward_sphere, Kind::disk, Kind::mesh, Kind::textured, Kind::cylinder, Kind::inward_cylinder}) {
+    for (const LampKind kind : {LampKind::rectangle, LampKind::sphere, LampKind::inward_sphere, LampKind::disk, LampKind::mesh, LampKind::textured, LampKind::cylinder, LampKind::inward_cylinder}) {
         const Ready ready(scene_of(cases()[0], kind));
         const Vec3f p{-1.1f, -1.15f, 0.0f};  // relative to the camera: 5 cm above the middle of the floor
         const Light& light = ready.scene.lights[0];
@@ -287,12 +218,12 @@ TEST_CASE("light sampling and light_pdf give one density", "[scenes]") {
             const Hit hit = ready.scene.accelerator.intersect(ray);
             if (!hit.valid() || hit.geometry != light.geometry) continue;
             const Surface there = surface_at<kAll>(ready.scene, ray, hit);
-            const bool curved = kind == Kind::cylinder || kind == Kind::inward_cylinder;  // where the normal turns with the error, too
+            const bool curved = kind == LampKind::cylinder || kind == LampKind::inward_cylinder;  // where the normal turns with the error, too
             if (std::fabs(dot(there.ng, s.wi)) < (curved ? 0.2f : 0.02f)) continue;  // there the density per area is ill-conditioned
             worst = std::max(worst, std::fabs(double{light_pdf<kAll>(ready.scene, light, p, there, s.wi)} / s.pdf_w - 1.0));
             ++tested;
         }
-        INFO(kNames[static_cast<int>(kind)] << ": worst relative difference " << worst << " of " << tested);
+        INFO(kLampNames[static_cast<int>(kind)] << ": worst relative difference " << worst << " of " << tested);
         CHECK(tested > 500);
         // Directions in float, 6e-8, over a cosine of 0.02 and more.
         CHECK(worst < 5e-5);

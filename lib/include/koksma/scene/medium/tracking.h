@@ -6,6 +6,7 @@
 // it with (Miller, Georgiev and Jarosz 2019, "A null-scattering path integral formulation of light transport", eq. 18), and no channel
 // is drawn. In a heterogeneous medium the collisions with what is missing to the majorant, which scatter nothing, belong to the path.
 
+#include <koksma/sampling/bits.h>
 #include <koksma/scene/medium/medium_record.h>
 #include <koksma/simd/elementary.h>
 
