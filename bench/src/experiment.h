@@ -13,7 +13,8 @@ namespace koksma {
 
 struct ExperimentScene {
     std::filesystem::path file;
-    std::string name;        ///< the file's stem
+    std::string name;        ///< the file's stem, and the effects where they are not the needed ones
+    std::string effects = "needed";  ///< as effects_of() takes them
     PixelRect crop;          ///< where errors are measured
 };
 
@@ -26,6 +27,7 @@ struct Experiment {
     std::vector<std::uint64_t> spp;
     std::vector<int> replicates;
     bool own_counts = false;                         ///< each sampler also at the good counts of its own base, within the range of spp
+    std::vector<std::string> effects{"needed"};      ///< each scene once with each of these sets, in turn; the first is what the others are compared with
     int layouts = 1;                                 ///< the layout as it stands and layouts - 1 permuted ones
     std::uint64_t seed = 0;
     std::vector<double> targets{1e-2, 1e-3, 1e-4};   ///< of relMSE, for the time to reach them

@@ -37,6 +37,7 @@ void add_render_settings(CLI::App* app, SceneArguments& a) {
     app->add_option("--seed", a.seed, "Seed, below 2^63; every seed is an independent replicate (default 0)")->check(not_a_count);
     app->add_option("--max-depth", a.max_depth, "Longest path in vertices: 1 sees emission only, -1 has no limit");
     app->add_option("--rr-depth", a.rr_depth, "Russian roulette from this depth on");
+    app->add_option("--effects", a.effects, "Effects to plan for, at least the needed ones: names with commas; 'needed' and 'all' stand for sets (default: needed)");
     app->add_option("--crop", a.crop, "Render only this part of the film: X,Y,WIDTH,HEIGHT")->delimiter(',')->expected(4);
     app->add_option("-D", a.defines, "Value of a scene parameter: name=value")->take_all()->allow_extra_args(false);
 }

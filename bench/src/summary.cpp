@@ -223,6 +223,8 @@ Json summarize(const Json& header, const std::vector<Row>& rows) {
             samplers.push_back(entry);
         }
         out["samplers"] = samplers;
+        const std::string needed = scene.contains("effects_of") && scene.at("effects_of").is_string() ? scene.at("effects_of").get<std::string>() : "";
+        out["cost_of_effects"] = needed.empty() ? Json() : effects_json(rows, needed, name);
         out["pairs"] = pairs_json(contenders.back());
         out.erase("crops");
         summary["scenes"].push_back(out);

@@ -41,19 +41,23 @@ std::vector<PlannedTrial> trials_of(const Run& run, Shard shard) {
     const int most = *std::max_element(run.experiment.replicates.begin(), run.experiment.replicates.end());
     std::vector<PlannedTrial> trials;
     std::vector<double> load(static_cast<std::size_t>(shard.of), 0.0);
-    for (std::size_t scene = 0; scene < run.scenes.size(); ++scene)
+    for (std::size_t first = 0, end = 0; first < run.scenes.size(); first = end) {
+        // One scene under several sets of effects: side by side, since their times are compared.
+        while (end < run.scenes.size() && run.scenes[end].what.file == run.scenes[first].what.file) ++end;
         for (int replicate = 0; replicate < most; ++replicate)
             for (const std::uint64_t spp : all_spp)
                 for (std::size_t k = 0; k < run.samplers.size(); ++k) {
                     if (replicate >= replicates_at(counts[k], spp)) continue;
                     if (replicate > 0 && !run.samplers[k]->randomized()) continue;  // it would be the same render again
-                    for (std::size_t layout = 0; layout < run.orders[scene].size(); ++layout) {
-                        const auto least = std::min_element(load.begin(), load.end());  // the first of the least loaded: the same on all machines
-                        *least += static_cast<double>(spp);
-                        if (least - load.begin() == shard.part - 1)
-                            trials.push_back({scene, k, {spp, replicate, static_cast<int>(layout), &run.orders[scene][layout]}});
-                    }
+                    for (std::size_t scene = first; scene < end; ++scene)
+                        for (std::size_t layout = 0; layout < run.orders[scene].size(); ++layout) {
+                            const auto least = std::min_element(load.begin(), load.end());  // the first of the least loaded: the same on all machines
+                            *least += static_cast<double>(spp);
+                            if (least - load.begin() == shard.part - 1)
+                                trials.push_back({scene, k, {spp, replicate, static_cast<int>(layout), &run.orders[scene][layout]}});
+                        }
                 }
+    }
     return trials;
 }
 

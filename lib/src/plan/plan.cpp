@@ -44,13 +44,26 @@ DimensionLayout make_layout(EffectSet effects, const IntegratorSettings& setting
     return layout;
 }
 
-RenderPlan make_plan(const Scene& scene, const IntegratorSettings& settings) {
+EffectSet needed_effects(const Scene& scene, const IntegratorSettings& settings) {
     if (settings.max_depth < -1) throw Error("max_depth is " + std::to_string(settings.max_depth) + "; expected -1 (no limit), 0 or more");
     if (settings.rr_depth < 0) throw Error("rr_depth is " + std::to_string(settings.rr_depth) + "; expected 0 or more");
+    EffectSet effects = scene.effects;
+    if (settings.max_depth < 0 || settings.max_depth - 1 >= std::max(settings.rr_depth, 1)) effects |= {Effect::roulette};
+    return effects;
+}
+
+RenderPlan make_plan(const Scene& scene, const IntegratorSettings& settings) { return make_plan(scene, settings, needed_effects(scene, settings)); }
+
+RenderPlan make_plan(const Scene& scene, const IntegratorSettings& settings, EffectSet forced) {
+    const EffectSet needed = needed_effects(scene, settings);
+    if (!forced.contains(needed)) {
+        std::string missing;
+        for (const std::string& e : EffectSet(needed.bits & ~forced.bits).names()) missing += (missing.empty() ? "" : ", ") + e;
+        throw Error("the effects lack what the scene calls for: " + missing);
+    }
     RenderPlan plan;
-    plan.effects = scene.effects;
+    plan.effects = forced;
     plan.integrator = settings;
-    if (settings.max_depth < 0 || settings.max_depth - 1 >= std::max(settings.rr_depth, 1)) plan.effects |= {Effect::roulette};
     plan.layout = make_layout(plan.effects, settings);
     if (const Slot* lens = DimensionLayout::find(plan.layout.camera(), SlotRole::lens)) plan.lens = static_cast<std::int16_t>(lens->dimension);
     if (const Slot* time = DimensionLayout::find(plan.layout.camera(), SlotRole::time)) plan.time = static_cast<std::int16_t>(time->dimension);
