@@ -67,7 +67,21 @@ def _scene(node: Node, directory: Path) -> model.Scene:
         reference=_reference(node.at("reference")),
         picture=load_picture(node.at("picture"), directory),
         reference_crop=load_picture(node.at("reference_crop"), directory),
-        samplers=samplers, evidence=load_evidence(node, directory))
+        samplers=samplers, forced=None if node.at("cost_of_effects").is_null() else _forced(node.at("cost_of_effects")),
+        evidence=load_evidence(node, directory))
+
+
+def _forced(node: Node) -> model.ForcedEffects:
+    needed = {effect.name() for effect in node.at("needed").items()}
+    return model.ForcedEffects(
+        extra=tuple(effect.name() for effect in node.at("forced").items() if effect.name() not in needed),
+        dimensions_needed=node.at("dimensions_needed").integer(), dimensions=node.at("dimensions").integer(),
+        kernel_needed=node.at("kernel_needed").text(), kernel=node.at("kernel").text(),
+        lines=tuple(model.EffectsCost(
+            sampler=line.at("sampler").name(), spp=line.at("spp").integer(1), ns_needed=line.at("ns_per_path_needed").number(0),
+            ns_forced=line.at("ns_per_path").number(0), time_ratio=_estimate(line.at("time_ratio"), "value", "lo", "hi", least=0),
+            mse_ratio=_estimate(line.at("mse_ratio"), "value", "lo", "hi", least=0),
+            distinguishable=line.at("distinguishable").flag()) for line in node.at("lines").items()))
 
 
 def _reference(node: Node) -> model.Reference:
