@@ -71,7 +71,8 @@ def _scene(node: Node, directory: Path) -> model.Scene:
         samplers=samplers, reference_data=load_array(node.at("reference_data"), directory, 3),
         reference_exr=file_of(node.at("reference_exr"), directory),
         predictions=tuple(_prediction(item) for item in node.at("predictions").items()),
-        verdict=node.at("predictions_verdict").one_of(*VERDICTS), evidence=load_evidence(node, directory))
+        verdict=node.at("predictions_verdict").one_of(*VERDICTS), forced=None if node.at("cost_of_effects").is_null() else _forced(node.at("cost_of_effects")),
+        evidence=load_evidence(node, directory))
 
 
 VERDICTS = ("held", "refuted", "undecided", "not tested")
@@ -81,6 +82,19 @@ def _prediction(node: Node) -> model.Prediction:
     found = tuple(model.Finding(item.at("what").text(), _estimate(item, "value", "lo", "hi"), item.at("verdict").one_of(*VERDICTS))
                   for item in node.at("found").items())
     return model.Prediction(node.at("says").name(), node.at("of").one_of("slope", "gain", "order"), node.at("verdict").one_of(*VERDICTS), found)
+
+
+def _forced(node: Node) -> model.ForcedEffects:
+    needed = {effect.name() for effect in node.at("needed").items()}
+    return model.ForcedEffects(
+        extra=tuple(effect.name() for effect in node.at("forced").items() if effect.name() not in needed),
+        dimensions_needed=node.at("dimensions_needed").integer(), dimensions=node.at("dimensions").integer(),
+        kernel_needed=node.at("kernel_needed").text(), kernel=node.at("kernel").text(),
+        lines=tuple(model.EffectsCost(
+            sampler=line.at("sampler").name(), spp=line.at("spp").integer(1), ns_needed=line.at("ns_per_path_needed").number(0),
+            ns_forced=line.at("ns_per_path").number(0), time_ratio=_estimate(line.at("time_ratio"), "value", "lo", "hi", least=0),
+            mse_ratio=_estimate(line.at("mse_ratio"), "value", "lo", "hi", least=0),
+            distinguishable=line.at("distinguishable").flag()) for line in node.at("lines").items()))
 
 
 def _reference(node: Node) -> model.Reference:

@@ -174,6 +174,31 @@ class Reference:
 
 
 @dataclass(frozen=True)
+class EffectsCost:
+    """A sampler at one spp with the needed effects and with more; time_ratio and mse_ratio are more over needed."""
+
+    sampler: str
+    spp: int
+    ns_needed: float
+    ns_forced: float
+    time_ratio: Estimate
+    mse_ratio: Estimate
+    distinguishable: bool
+
+
+@dataclass(frozen=True)
+class ForcedEffects:
+    """What a scene costs when it is rendered with effects that it does not call for."""
+
+    extra: tuple[str, ...]
+    dimensions_needed: int
+    dimensions: int
+    kernel_needed: str
+    kernel: str
+    lines: tuple[EffectsCost, ...]
+
+
+@dataclass(frozen=True)
 class Scene:
     """One scene; film is (width, height) and crop (x, y, width, height), in pixels."""
 
@@ -195,6 +220,7 @@ class Scene:
     reference_exr: Path | None
     predictions: tuple[Prediction, ...]
     verdict: str
+    forced: ForcedEffects | None = None
     evidence: object = None  # of evidence.py, which is made of these values
 
 

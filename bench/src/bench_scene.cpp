@@ -1,6 +1,7 @@
 #include "bench_scene.h"
 
 #include "reference_store.h"
+#include "scene_setup.h"
 
 #include <fmt/format.h>
 
@@ -14,8 +15,9 @@ BenchScene open_scene(const ExperimentScene& what) {
     if (what.crop.x > film.width - what.crop.width || what.crop.y > film.height - what.crop.height)
         throw Error(fmt::format("{}: the experiment's crop {}x{}+{}+{} is not inside the film of {}x{} pixels", what.file.string(), what.crop.width, what.crop.height,
                                 what.crop.x, what.crop.y, film.width, film.height));
-    out.plan = make_plan(out.scene, out.scene.description.integrator);
-    out.key = reference_key(out.scene, out.plan, what.name, what.crop);
+    const IntegratorSettings& settings = out.scene.description.integrator;
+    out.plan = make_plan(out.scene, settings, effects_of(what.effects, needed_effects(out.scene, settings)));
+    out.key = reference_key(out.scene, out.plan, what.file.stem().string(), what.crop);
     return out;
 }
 

@@ -64,6 +64,7 @@ Json scene_json(const BenchScene& s, const Judge& judge, const Registry& registr
     const Errors halves = judge.between_halves();
     const auto file = find_reference(s.key);
     return {{"name", s.what.name},
+            {"effects_of", s.what.effects == "needed" ? Json() : Json(s.what.file.stem().string())},
             {"purpose", s.scene.description.purpose},
             {"expect", s.scene.description.expect},
             {"film", {s.scene.film.width, s.scene.film.height}},

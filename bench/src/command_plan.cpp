@@ -83,8 +83,11 @@ int run_plan(const PlanCommand& command, const Registry& registry) {
     for (const std::string& e : plan.effects.names()) effects += (effects.empty() ? "" : ", ") + e;
     std::size_t triangles = setup.scene.triangles.size();
     fmt::print("scene          {}\n", setup.scene.description.file);
-    fmt::print("geometry       {} triangles, {} spheres, {} disks; {} lights, {} media\n", triangles, setup.scene.spheres.size(), setup.scene.disks.size(), setup.scene.lights.size(),
-               plan.effects.has(Effect::medium) ? setup.scene.media.size() : 0);
+    const Scene& scene = setup.scene;
+    fmt::print("geometry       {} triangles, {} spheres, {} disks, {} cylinders{}; {} lights, {} media\n", triangles, scene.spheres.size(),
+               scene.disks.size(), scene.cylinders.size(),
+               scene.instances.empty() ? "" : fmt::format(", in {} groups with {} instances what moves or is repeated", scene.groups.size(), scene.instances.size()),
+               scene.lights.size(), plan.effects.has(Effect::medium) ? scene.media.size() : 0);
     fmt::print("max_depth      {}, rr_depth {}\n", plan.integrator.max_depth, plan.integrator.rr_depth);
     fmt::print("effects        {}\n", effects.empty() ? "none" : effects);
     for (const auto& [effect, where] : setup.scene.called_for)

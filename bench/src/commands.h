@@ -26,6 +26,7 @@ struct SceneArguments {
     std::optional<std::uint64_t> spp;
     std::optional<std::uint64_t> seed;
     std::optional<int> max_depth, rr_depth;
+    std::string effects = "needed";              ///< as effects_of() takes them
     std::vector<int> crop;                       ///< x, y, width, height; empty: the scene's
     std::string technique;                       ///< mis, light or bsdf; empty: the scene's
 };

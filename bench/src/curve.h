@@ -48,6 +48,10 @@ struct Contender {
     Curve curve;
 };
 
+/// What a larger set of effects costs: for each sampler and count, dimensions of both, nanoseconds a path and their ratio, MSE ratio.
+/// @param needed, forced  names under which the scene was rendered
+[[nodiscard]] nlohmann::ordered_json effects_json(const std::vector<Row>& rows, const std::string& needed, const std::string& forced);
+
 // The parts of a summary; each of one sampler, one scene or all.
 [[nodiscard]] nlohmann::ordered_json metrics_json(const Point& point, bool randomized, const Curve& baseline);
 [[nodiscard]] nlohmann::ordered_json pairs_json(const std::vector<Contender>& contenders);

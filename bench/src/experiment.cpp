@@ -75,6 +75,7 @@ void check(const Experiment& e) {
         if (e.spp[i] == 0 || e.replicates[i] < 1) throw Error(where + ": spp and replicates must be 1 or more");
         if (i > 0 && e.spp[i] <= e.spp[i - 1]) throw Error(where + ": spp must increase");
     }
+    if (e.effects.empty() || e.effects.front() != "needed") throw Error(where + ": \"effects\": the first set must be \"needed\", with which the others are compared");
     constexpr int kMostLayouts = 1000;
     if (e.layouts < 1 || e.layouts > kMostLayouts)
         throw Error(fmt::format("{}: \"layouts\" is {}; expected 1 (the layout as it stands) to {}", where, e.layouts, kMostLayouts));
@@ -113,6 +114,7 @@ Experiment load_experiment(const std::string& name_or_file) {
     keys.read("own_counts", e.own_counts, false);
     keys.read("progressive", e.progressive, false);
     keys.read("layouts", e.layouts, false);
+    keys.read("effects", e.effects, false);
     keys.read("seed", e.seed, false);
     keys.read("relmse_targets", e.targets, false);
     keys.read("crop_spp", e.crop_spp, false);
@@ -121,7 +123,12 @@ Experiment load_experiment(const std::string& name_or_file) {
     const Json* scenes = keys.object("scenes");
     if (scenes == nullptr || !scenes->is_array()) throw Error(fmt::format("{}: \"scenes\": expected a list of objects with the keys file and crop", e.file.string()));
     for (std::size_t i = 0; i < scenes->size(); ++i)
-        e.scenes.push_back(scene_of((*scenes)[i], fmt::format("{}: scenes[{}]", e.file.string(), i), e.file.parent_path()));
+        for (const std::string& effects : e.effects) {
+            ExperimentScene scene = scene_of((*scenes)[i], fmt::format("{}: scenes[{}]", e.file.string(), i), e.file.parent_path());
+            scene.effects = effects;
+            if (effects != e.effects.front()) scene.name += "+" + effects;
+            e.scenes.push_back(scene);
+        }
     if (const Json* reference = keys.object("reference")) {
         Keys r(*reference, e.file.string() + ": reference");
         r.read("samplers", e.reference.samplers, true);

@@ -15,9 +15,10 @@ namespace koksma {
 
 struct ExperimentScene {
     std::filesystem::path file;
-    std::string name;  ///< the file's stem
-    PixelRect crop;    ///< where errors are measured
-    std::vector<Prediction> predictions;
+    std::string name;                ///< the file's stem, and the effects where they are not the needed ones
+    std::string effects = "needed";  ///< as effects_of() takes them
+    PixelRect crop{};                ///< where errors are measured
+    std::vector<Prediction> predictions{};
 };
 
 /// Renders of each sampler on each scene: replicates[i] of them at spp[i].
@@ -28,9 +29,10 @@ struct Experiment {
     std::vector<std::string> samplers;
     std::vector<std::uint64_t> spp;
     std::vector<int> replicates;
-    bool own_counts = false;  ///< each sampler also at the good counts of its own base, within the range of spp
-    int progressive = 0;      ///< renders to the largest spp whose prefixes at every spp make a curve of their own
-    int layouts = 1;          ///< the layout as it stands and layouts - 1 permuted ones
+    bool own_counts = false;                     ///< each sampler also at the good counts of its own base, within the range of spp
+    std::vector<std::string> effects{"needed"};  ///< each scene once with each of these sets, in turn; the first is what the others are compared with
+    int progressive = 0;                         ///< renders to the largest spp whose prefixes at every spp make a curve of their own
+    int layouts = 1;                             ///< the layout as it stands and layouts - 1 permuted ones
     std::uint64_t seed = 0;
     std::vector<double> targets{1e-2, 1e-3, 1e-4};   ///< of relMSE, for the time to reach them
     std::uint64_t crop_spp = 16;                     ///< whose images the report shows

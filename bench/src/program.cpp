@@ -40,6 +40,7 @@ void add_render_settings(CLI::App* app, SceneArguments& a) {
     app->add_option("--technique", a.technique,
                     "Direct light by light sampling or BSDF sampling alone: light, bsdf; mis: both (default: the scene's)")
         ->check(CLI::IsMember({"mis", "light", "bsdf"}));
+    app->add_option("--effects", a.effects, "Effects to plan for, at least the needed ones: names with commas; 'needed' and 'all' stand for sets (default: needed)");
     app->add_option("--crop", a.crop, "Render only this part of the film: X,Y,WIDTH,HEIGHT")->delimiter(',')->expected(4);
     app->add_option("-D", a.defines, "Value of a scene parameter: name=value")->take_all()->allow_extra_args(false);
 }

@@ -3,6 +3,9 @@
 #include <koksma/measure/seeds.h>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
 
 namespace koksma {
 
@@ -14,6 +17,25 @@ SceneParameters parameters_of(const std::vector<std::string>& defines) {
         parameters[d.substr(0, equals)] = d.substr(equals + 1);
     }
     return parameters;
+}
+
+EffectSet effects_of(const std::string& names, EffectSet needed) {
+    EffectSet effects;
+    for (std::size_t at = 0; at <= names.size();) {
+        const std::size_t end = std::min(names.find(',', at), names.size());
+        const std::string name = names.substr(at, end - at);
+        at = end + 1;
+        if (name == "needed") {
+            effects |= needed;
+        } else if (name == "all") {
+            effects |= largest_effects(needed);
+        } else if (const EffectSet one = EffectSet::named(name); one.size() == 1) {
+            effects |= one;
+        } else {
+            throw UsageError(fmt::format("unknown effect '{}'; effects: needed, all, {}", name, fmt::join(EffectSet::all().names(), ", ")));
+        }
+    }
+    return effects;
 }
 
 std::unique_ptr<SamplerFactory> make_sampler(const Registry& registry, const std::string& spec) {
@@ -49,7 +71,12 @@ SceneSetup set_up(const SceneArguments& a, const Registry& registry) {
         film.crop_height = a.crop[3];
     }
     SceneSetup setup{compile(description), {}, {}, 1, 0};
-    setup.plan = make_plan(setup.scene, description.integrator);
+    const EffectSet needed = needed_effects(setup.scene, description.integrator), effects = effects_of(a.effects, needed);
+    try {
+        setup.plan = make_plan(setup.scene, description.integrator, effects);
+    } catch (const Error& e) {
+        throw UsageError(fmt::format("--effects {}: {}", a.effects, e.what()));
+    }
     const std::string from_scene = description.sampler.empty() ? kDefaultSampler : description.sampler;
     setup.sampler = make_sampler(registry, a.sampler ? *a.sampler : from_scene);
     setup.spp = a.spp.value_or(description.spp);

@@ -26,6 +26,10 @@ inline constexpr const char* kDefaultSampler = "sobol:randomize=owen";
 /// @throws UsageError for arguments without meaning, Error for what is wrong with the scene
 [[nodiscard]] SceneSetup set_up(const SceneArguments& arguments, const Registry& registry);
 
+/// A set of effects by names with commas; among them `needed`, what the scene calls for, and `all`, what the largest kernel has that could
+/// render it. @throws UsageError for an unknown name
+[[nodiscard]] EffectSet effects_of(const std::string& names, EffectSet needed);
+
 /// @throws UsageError if an item is not name=value
 [[nodiscard]] SceneParameters parameters_of(const std::vector<std::string>& defines);
 

@@ -236,6 +236,8 @@ Json summarize(const Json& header, const std::vector<Row>& rows) {
             samplers.push_back(entry);
         }
         out["samplers"] = samplers;
+        const std::string needed = scene.contains("effects_of") && scene.at("effects_of").is_string() ? scene.at("effects_of").get<std::string>() : "";
+        out["cost_of_effects"] = needed.empty() ? Json() : effects_json(rows, needed, name);
         out["pairs"] = pairs_json(contenders.back());
         out["predictions"] = verdicts_json(scene.value("predictions", Json::array()), contenders.back(), slopes, [&](const std::string& spec) { return label_of(header, spec); });
         out["predictions_verdict"] = worst_verdict(out["predictions"]);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <map>
 #include <string>
 #include <vector>
@@ -167,6 +168,21 @@ void print_counts(const Json& scene) {
     }
 }
 
+/// What the effects cost that a scene does not call for: a line a sampler and count.
+void print_effects(const Json& scene) {
+    const Json& cost = scene.at("cost_of_effects");
+    if (cost.is_null()) return;
+    fmt::print("  {}: {} effects, {} dimensions, {} -> {} effects, {} dimensions, {}\n", scene.at("effects_of").get<std::string>(), cost.at("needed").size(),
+               cost.at("dimensions_needed").get<int>(), cost.at("kernel_needed").get<std::string>(), cost.at("forced").size(), cost.at("dimensions").get<int>(),
+               cost.at("kernel").get<std::string>());
+    for (const Json& l : cost.at("lines")) {
+        const Json &time = l.at("time_ratio"), &error = l.at("mse_ratio");
+        fmt::print("    {:<28}{:>5} {:>9.0f}{:>9.0f}  {:<24}{:<24}{}\n", l.at("sampler").get<std::string>(), l.at("spp").get<std::uint64_t>(),
+                   l.at("ns_per_path_needed").get<double>(), l.at("ns_per_path").get<double>(), with_interval(time.at("value"), time.at("lo"), time.at("hi"), "{:.3f}"),
+                   with_interval(error.at("value"), error.at("lo"), error.at("hi"), "{:.3f}"), l.at("distinguishable").get<bool>() ? "distinguishable" : "");
+    }
+}
+
 template <class F>
 bool any_sampler(const Json& summary, F&& holds) {
     for (const Json& scene : summary.at("scenes"))
@@ -209,6 +225,12 @@ void print_tables(const Json& summary) {
         fmt::print("  {:<10}{:<28}{:>5}  {:<12}{:<12}{:<12}{:<22}{:<24}\n", "scene", "sampler", "spp", "RMSE", "lowest", "highest", "spread [95 %]",
                    "planned/permuted [95 %]");
         for (const Json& scene : summary.at("scenes")) print_layouts(scene);
+    }
+    if (std::any_of(summary.at("scenes").begin(), summary.at("scenes").end(), [](const Json& s) { return !s.at("cost_of_effects").is_null(); })) {
+        fmt::print("\nEffects that nothing calls for: nanoseconds a path with the needed ones and with more, the ratio of the times of renders that were made one\n"
+                   "after the other [95 %], and MSE with more over MSE with the needed ones [95 %]\n");
+        fmt::print("    {:<28}{:>5} {:>9}{:>9}  {:<24}{:<24}\n", "sampler", "spp", "needed", "more", "time [95 %]", "MSE [95 %]");
+        for (const Json& scene : summary.at("scenes")) print_effects(scene);
     }
     if (const auto invalid = summary.at("invalid_samples").get<std::uint64_t>(); invalid > 0) fmt::print("\n{} invalid samples (they count as zero); koksma render --stats locates them\n", invalid);
 }

@@ -46,22 +46,26 @@ std::vector<PlannedTrial> trials_of(const Run& run, Shard shard) {
         *least += static_cast<double>(spp);
         return least - load.begin() == shard.part - 1;
     };
-    for (std::size_t scene = 0; scene < run.scenes.size(); ++scene) {
+    for (std::size_t first = 0, end = 0; first < run.scenes.size(); first = end) {
+        // One scene under several sets of effects: side by side, since their times are compared.
+        while (end < run.scenes.size() && run.scenes[end].what.file == run.scenes[first].what.file) ++end;
         for (int replicate = 0; replicate < most; ++replicate)
             for (const std::uint64_t spp : all_spp)
                 for (std::size_t k = 0; k < run.samplers.size(); ++k) {
                     if (replicate >= replicates_at(counts[k], spp)) continue;
                     if (replicate > 0 && !run.samplers[k]->randomized()) continue;  // it would be the same render again
-                    for (std::size_t layout = 0; layout < run.orders[scene].size(); ++layout)
-                        if (mine(spp))
-                            trials.push_back({scene, k, {spp, replicate, static_cast<int>(layout), &run.orders[scene][layout], 0}});
+                    for (std::size_t scene = first; scene < end; ++scene)
+                        for (std::size_t layout = 0; layout < run.orders[scene].size(); ++layout)
+                            if (mine(spp))
+                                trials.push_back({scene, k, {spp, replicate, static_cast<int>(layout), &run.orders[scene][layout], 0}});
                 }
         // Each prefix is rendered from its first sample, so that a row needs no other: with counts times 4 it costs a third more.
         for (int replicate = 0; replicate < run.experiment.progressive; ++replicate)
             for (const std::uint64_t spp : run.experiment.spp)
                 for (std::size_t k = 0; k < run.samplers.size(); ++k)
-                    if (run.samplers[k]->randomized() && mine(spp))
-                        trials.push_back({scene, k, {spp, replicate, 0, &run.orders[scene][0], run.experiment.spp.back()}});
+                    for (std::size_t scene = first; scene < end; ++scene)
+                        if (run.samplers[k]->randomized() && mine(spp))
+                            trials.push_back({scene, k, {spp, replicate, 0, &run.orders[scene][0], run.experiment.spp.back()}});
     }
     return trials;
 }

@@ -42,6 +42,14 @@ const Kernel& choose_kernel(EffectSet effects) noexcept {
     return kKernels.back();
 }
 
+EffectSet largest_effects(EffectSet needed) noexcept {
+    const Kernel& chosen = choose_kernel(needed);
+    EffectSet largest = chosen.effects;
+    for (const Kernel& k : kKernels)
+        if (k.name.starts_with("batch/") == chosen.name.starts_with("batch/") && k.effects.contains(largest)) largest = k.effects;
+    return largest;
+}
+
 const Kernel& find_kernel(std::string_view name, EffectSet needed) {
     std::string known;
     for (const Kernel& k : kKernels) {

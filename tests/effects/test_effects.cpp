@@ -54,6 +54,28 @@ TEST_CASE("a replayed path has the radiance that the render added", "[effects]")
     }
 }
 
+TEST_CASE("a larger set of effects has its layout and the same picture; a smaller one is refused", "[effects]") {
+    for (const EffectScene& s : effect_scenes()) {
+        Ready ready(s.description);
+        INFO(name(s.effect));
+        const EffectSet needed = ready.plan.effects;
+        CHECK_THROWS_AS(make_plan(ready.scene, s.description.integrator, needed.without(s.effect)), Error);
+        const Measured with_needed = measure(ready, 16);
+        ready.plan = make_plan(ready.scene, s.description.integrator, largest_effects(needed));
+        CHECK(ready.plan.effects.contains(needed));
+        CHECK(ready.plan.lens >= 0);
+        CHECK(ready.plan.time >= 0);
+        const Measured with_all = measure(ready, 16);
+        INFO(with_needed.mean << " +- " << with_needed.standard_error << " against " << with_all.mean << " +- " << with_all.standard_error);
+        CHECK(std::fabs(with_needed.mean - with_all.mean) <= with_needed.noise() + with_all.noise());
+        const EffectSet both = EffectSet::all();
+        const RenderOptions reference{.kernel = &find_kernel("reference/all", both)};
+        // The layout follows the plan: with the reference kernel the paths are the same.
+        const double mean = ready.render(kSobol, 16, 1).film.mean().y;
+        CHECK(std::fabs(ready.render(kSobol, 16, 1, reference).film.mean().y - mean) <= 1e-3 * mean);
+    }
+}
+
 TEST_CASE("a material that no shape uses calls for no effect", "[effects]") {
     SceneDescription d = floor_scene();
     static_cast<void>(add_material(d, Dielectric{}));

@@ -1,8 +1,12 @@
 """plan and samplers: what a scene calls for and what there is, as text and as JSON."""
 
+import json
+import os
 import unittest
 
 from harness import ProgramTest
+
+SCENES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scenes")
 
 
 class Plan(ProgramTest):
@@ -34,6 +38,33 @@ class Plan(ProgramTest):
         self.assertIn(f"slots          {plan['dimensions']} dimensions", out)
         self.assertIn(f"effects        {', '.join(plan['effects'])}\n", out)
         self.assertIn(f"kernel         {plan['kernel']} ", out)
+
+    def test_cornell_has_no_dimension_that_it_does_not_call_for(self):
+        plan = self.succeeds("plan", os.path.join(SCENES, "cornell.xml"), "--json").json()
+        roles = {slot["role"] for slot in plan["slots"]}
+        self.assertEqual(roles, {"film", "light position", "direction", "roulette"})
+        for effect in ["lens", "motion", "instancing", "light_choice", "lobe", "texture"]:
+            self.assertNotIn(effect, plan["effects"])
+
+    def test_effects_can_be_more_than_needed(self):
+        few, more, most = (self.succeeds("plan", "scene.xml", "--json", "--effects", e).json() for e in ["needed", "needed,lens,motion", "all"])
+        self.assertEqual(few, self.succeeds("plan", "scene.xml", "--json").json())
+        self.assertEqual(set(more["effects"]), set(few["effects"]) | {"lens", "motion"})
+        self.assertEqual(more["dimensions"], few["dimensions"] + 3)
+        self.assertEqual([s["role"] for s in more["slots"][:3]], ["film", "lens", "time"])
+        self.assertLess(set(more["effects"]), set(most["effects"]))
+        self.assertEqual(most["kernel"], "batch/all")
+
+    def test_effects_cannot_be_fewer_than_needed(self):
+        self.refuses(2, ["plan", "scene.xml", "--effects", "lens"], "lack what the scene calls for", "area_light")
+        self.refuses(2, ["plan", "scene.xml", "--effects", "needed,lense"], "unknown effect 'lense'", "lens, ")
+
+    def test_a_forced_set_renders_the_same_picture_up_to_noise(self):
+        means = []
+        for effects in ["needed", "all"]:
+            self.succeeds("render", "scene.xml", "-q", "-o", "out.exr", "-n", "256", "--effects", effects, "--stats", "stats.json")
+            means.append(json.loads(self.read("stats.json"))["mean_rgb"][1])
+        self.assertAlmostEqual(means[0], means[1], delta=0.02 * means[0])
 
     def test_endless_paths_end_in_the_tail(self):
         self.assertIn("draw from it", self.succeeds("plan", "scene.xml", "--max-depth", "-1").out)

@@ -396,7 +396,8 @@ TEST_CASE("sensors take their parameters and refuse the impossible", "[unit][sce
         files.load_text(sensor_scene(number("principal_point_offset_x", ".1") + number("principal_point_offset_y", ".2"))).camera;
     CHECK(shifted.principal_point_offset == glm::dvec2(0.1, 0.2));
     CHECK(error(number("shutter_open", ".1") + number("shutter_close", ".1")) == "no error");
-    CHECK_ERROR(error(number("shutter_close", ".1")), "shutter", "motion");
+    CHECK(error(number("shutter_close", ".1")) == "no error");
+    CHECK_ERROR(error(number("shutter_close", "-.1")), "shutter", "before it opens");
     CHECK_ERROR(error("", "thinlens"), "scene.xml:2:1", "aperture_radius");
     CHECK_ERROR(error(number("aperture_radius", ".1") + number("principal_point_offset_x", ".1"), "thinlens"), "principal_point_offset_x");
     CHECK_ERROR(error(number("fov", "180")), "(0, 180)");

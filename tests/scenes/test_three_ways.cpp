@@ -53,6 +53,12 @@ std::vector<Case> cases() {
     };
     const Blend blend{Rgb(0.4f), {nested(Plastic{}), nested(rough_glass(ggx, 0.4f, 0.4f))}};
     const NormalMap normal_map{Rgb(0.6f, 0.45f, 0.9f), {true, true, {nested(rough(ggx, 0.3f, 0.3f))}}};
+    BumpMap bump_map;
+    BitmapTexture hills;
+    hills.image = image(3, 2, {Rgb(0.1f), Rgb(0.5f), Rgb(0.2f), Rgb(0.7f), Rgb(0.0f), Rgb(0.3f)});
+    bump_map.height = hills;
+    bump_map.scale = 2.0f;
+    bump_map.bending.nested = {nested(rough_plastic)};
     return {{"rough glass, ggx 0.4", rough_glass(ggx, 0.4f, 0.4f)},
             {"rough glass, beckmann 0.3 x 0.5", rough_glass(beckmann, 0.3f, 0.5f)},
             {"rough glass, ggx 0.5, from below", rough_glass(ggx, 0.5f, 0.5f), false, false, true},
@@ -65,6 +71,7 @@ std::vector<Case> cases() {
             {"blend of plastic and rough glass", blend},
             {"mask of rough plastic", Mask{Rgb(0.7f), {nested(rough_plastic)}}},
             {"normal map", normal_map},
+            {"bump map", bump_map},
             {"diffuse", Diffuse{Rgb(0.7f)}},
             {"ggx 0.7", rough(ggx, 0.7f, 0.7f)},
             {"ggx 0.2", rough(ggx, 0.2f, 0.2f)},

@@ -101,7 +101,7 @@ def _scene(name: str, samplers, rng: random.Random) -> dict:
     return {
         "name": name, "purpose": purpose, "expect": expect, "film": [512, 512], "crop": [200, 260, 64, 64],
         "max_depth": 8, "rr_depth": 5, "effects": ["area_light", "diffuse"], "dimensions": 27,
-        "kernel": "reference/diffuse",
+        "kernel": "reference/diffuse", "cost_of_effects": None,
         "reference": {"samplers": ["sobol:randomize=owen", "random"], "spp_total": 32768, "replicates": 16,
                       "se_rmse": error / 150 / math.sqrt(2), "halves_z": 0.4, "file": "references/" + name + ".exr"},
         "picture": None, "reference_crop": None, "reference_data": None, "reference_exr": None, "samplers": results,

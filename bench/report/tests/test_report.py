@@ -120,6 +120,18 @@ class WhatThePageShows(ReportTest):
         (self.directory / "report.html").unlink()
         self.refuse_summary('"guessed"', '"interpolated"')
 
+    def test_the_cost_of_effects_is_shown_where_an_experiment_has_it(self):
+        self.assertNotIn("Effects that nothing calls for", self.page())
+        line = {"sampler": "random", "spp": 16, "ns_per_path_needed": 812.0, "ns_per_path": 977.0, "time_ratio": {"value": 1.203, "lo": 1.18, "hi": 1.22},
+                "mse_ratio": {"value": 1.017, "lo": 0.97, "hi": 1.06}, "distinguishable": False}
+        self.scene["cost_of_effects"] = {"needed": ["diffuse"], "forced": ["diffuse", "lens"], "dimensions_needed": 27, "dimensions": 29,
+                                         "kernel_needed": "batch/diffuse", "kernel": "batch/all", "lines": [line]}
+        page = Page(self.page())
+        self.assertIsNone(page.unbalanced)
+        text = " ".join(page.text.split())
+        for words in ("Effects that nothing calls for", "27 dimensions a path with batch/diffuse; 29 with batch/all", "besides: lens", "1.203", "1.017", "not distinguishable"):
+            self.assertIn(words, text)
+
     def test_the_page_stands_alone_and_is_well_formed(self):
         self.add_pictures()
         text = self.page()

@@ -61,16 +61,29 @@ DimensionLayout make_layout(EffectSet effects, const IntegratorSettings& setting
     return layout;
 }
 
-RenderPlan make_plan(const Scene& scene, const IntegratorSettings& settings) {
+EffectSet needed_effects(const Scene& scene, const IntegratorSettings& settings) {
     if (settings.max_depth < -1) throw Error("max_depth is " + std::to_string(settings.max_depth) + "; expected -1 (no limit), 0 or more");
     if (settings.rr_depth < 0) throw Error("rr_depth is " + std::to_string(settings.rr_depth) + "; expected 0 or more");
-    RenderPlan plan;
-    plan.effects = scene.effects;
+    EffectSet effects = scene.effects;
     if (!settings.volumetric)
-        for (const Effect e : kVolumetric) plan.effects = plan.effects.without(e);
+        for (const Effect e : kVolumetric) effects = effects.without(e);
+    if (settings.technique != Technique::both) effects |= {Effect::one_technique};
+    if (settings.max_depth < 0 || settings.max_depth - 1 >= std::max(settings.rr_depth, 1)) effects |= {Effect::roulette};
+    return effects;
+}
+
+RenderPlan make_plan(const Scene& scene, const IntegratorSettings& settings) { return make_plan(scene, settings, needed_effects(scene, settings)); }
+
+RenderPlan make_plan(const Scene& scene, const IntegratorSettings& settings, EffectSet forced) {
+    const EffectSet needed = needed_effects(scene, settings);
+    if (!forced.contains(needed)) {
+        std::string missing;
+        for (const std::string& e : EffectSet(needed.bits & ~forced.bits).names()) missing += (missing.empty() ? "" : ", ") + e;
+        throw Error("the effects lack what the scene calls for: " + missing);
+    }
+    RenderPlan plan;
+    plan.effects = forced;
     plan.integrator = settings;
-    if (settings.max_depth < 0 || settings.max_depth - 1 >= std::max(settings.rr_depth, 1)) plan.effects |= {Effect::roulette};
-    if (settings.technique != Technique::both) plan.effects |= {Effect::one_technique};
     plan.layout = make_layout(plan.effects, settings);
     if (const Slot* lens = DimensionLayout::find(plan.layout.camera(), SlotRole::lens))
         plan.lens = static_cast<std::int16_t>(lens->dimension);

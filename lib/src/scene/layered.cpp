@@ -117,7 +117,7 @@ struct Tangents {
         dv = (t * phi.cos - s * phi.sin) * (2.0f * kPi * at.uv.x);
     }
     if (at.instance != Hit::kNone) {
-        const Placement m = transfer_at<kAll>(scene, scene.instances[at.instance], at.time).to_scene;
+        const Placement m = transfer_at(scene, scene.instances[at.instance], at.time).to_scene;
         du = to_float(vector_by(m, to_double(du)));
         dv = to_float(vector_by(m, to_double(dv)));
     }

@@ -26,6 +26,9 @@ struct Kernel {
 /// The first variant that contains the effects and runs on this CPU.
 [[nodiscard]] const Kernel& choose_kernel(EffectSet effects) noexcept;
 
+/// The largest set of effects of the family of kernels (batch or reference) that these effects are rendered by.
+[[nodiscard]] EffectSet largest_effects(EffectSet needed) noexcept;
+
 /// A variant by name. @throws Error naming all, or when it lacks an effect of the scene or the CPU lacks what it needs
 [[nodiscard]] const Kernel& find_kernel(std::string_view name, EffectSet needed);
 

@@ -21,7 +21,9 @@ template <EffectSet kEffects, class Observer>
     constexpr Vec3f kInvalid{std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::quiet_NaN(),
                              std::numeric_limits<float>::quiet_NaN()};
     const IntegratorSettings& settings = plan.integrator;
-    const bool crosses = plan.effects.has(Effect::null_boundary);
+    // A set of effects may be larger than what the scene calls for.
+    const bool crosses = settings.volumetric && plan.effects.has(Effect::null_boundary);
+    const bool has_media = settings.volumetric && plan.effects.has(Effect::medium);
     const auto bounces_left = [&](std::int32_t depth) { return settings.max_depth < 0 || depth + 1 < settings.max_depth; };
 
     Vec3f radiance{0.0f};
@@ -31,7 +33,7 @@ template <EffectSet kEffects, class Observer>
     bool last_was_delta = true;                    // light sampling could not have made the last direction
     Vec3f last_p{0.0f}, last_n{0.0f, 0.0f, 1.0f};  // where lights were last chosen
     std::int32_t lossless = 0;
-    std::int32_t medium = plan.effects.has(Effect::medium) ? scene.camera_medium : -1;
+    std::int32_t medium = has_media ? scene.camera_medium : -1;
     ShadowWalk<kEffects> shadows(scene, crosses, draws, rays);
 
     const Pixel pixel = draws.id().pixel;
@@ -45,7 +47,7 @@ template <EffectSet kEffects, class Observer>
         return choice_probability<kEffects>(scene, light, triangle, last_p, last_n);
     };
     const auto behind = [&](const Surface& s, Vec3f w) {
-        return plan.effects.has(Effect::medium) ? medium_behind(scene, s, w, medium) : -1;
+        return has_media ? medium_behind(scene, s, w, medium) : -1;
     };
 
     for (std::int32_t depth = 0;; ++depth) {

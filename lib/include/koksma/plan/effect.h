@@ -74,6 +74,12 @@ struct EffectSet {
     friend constexpr EffectSet operator|(EffectSet a, EffectSet b) noexcept { return a |= b; }
     friend constexpr bool operator==(EffectSet, EffectSet) = default;
 
+    /// The effect of a name, or the empty set.
+    [[nodiscard]] static constexpr EffectSet named(std::string_view text) noexcept {
+        for (int i = 0; i < kEffectCount; ++i)
+            if (name(static_cast<Effect>(i)) == text) return {static_cast<Effect>(i)};
+        return {};
+    }
     [[nodiscard]] std::vector<std::string> names() const {
         std::vector<std::string> out;
         for (int i = 0; i < kEffectCount; ++i)

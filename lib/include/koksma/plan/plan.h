@@ -17,7 +17,7 @@ struct BounceSlots {
 
 /// Everything that the kernels need to know besides the scene. Plain data.
 struct RenderPlan {
-    EffectSet effects;               ///< of the scene under these settings; decides the layout
+    EffectSet effects;               ///< of the scene under these settings, or more; decides layout and kernel
     IntegratorSettings integrator;
     DimensionLayout layout;
     std::int16_t lens = -1, time = -1;  ///< offsets in the camera's run; film is at 0
@@ -30,7 +30,15 @@ inline constexpr std::int32_t kMaxLaidOutBounces = 64;
 /// The slots that a path needs: one table for the scene, whatever kernel runs.
 [[nodiscard]] DimensionLayout make_layout(EffectSet effects, const IntegratorSettings& settings);
 
+/// What a scene calls for under these settings.
 /// @throws Error for settings without meaning (max_depth < -1, rr_depth < 0)
+[[nodiscard]] EffectSet needed_effects(const Scene& scene, const IntegratorSettings& settings);
+
+/// A plan for what is needed.
+/// @throws Error for settings without meaning
 [[nodiscard]] RenderPlan make_plan(const Scene& scene, const IntegratorSettings& settings);
+/// A plan with the layout and kernel of a larger set, to measure what effects cost that nothing calls for.
+/// @throws Error also naming the effects that are needed and missing
+[[nodiscard]] RenderPlan make_plan(const Scene& scene, const IntegratorSettings& settings, EffectSet forced);
 
 }  // namespace koksma

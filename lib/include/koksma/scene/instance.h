@@ -3,8 +3,6 @@
 
 #include <koksma/scene/scene.h>
 
-#include <cmath>
-
 namespace koksma {
 
 /// What a ray meets first.
@@ -25,19 +23,6 @@ struct Transfer {
 };
 
 /// @param time  [0, 1): between the placements of what moves, entries are interpolated linearly, as Embree does
-template <EffectSet kEffects>
-[[nodiscard]] Transfer transfer_at(const Scene& scene, const InstanceRecord& instance, float time) noexcept {
-    const Placement* placements = &scene.placements[instance.first_placement];
-    if constexpr (kEffects.has(Effect::motion))
-        if (instance.placement_count > 1) {
-            const std::uint32_t pieces = instance.placement_count - 1;
-            const float scaled = time * static_cast<float>(pieces);
-            const float whole = std::floor(scaled);
-            const std::uint32_t piece = whole < static_cast<float>(pieces) ? static_cast<std::uint32_t>(whole) : pieces - 1;
-            const Placement now = between(placements[piece], placements[piece + 1], static_cast<double>(scaled) - piece);
-            return {now, inverse(now)};
-        }
-    return {placements[0], instance.to_own};
-}
+[[nodiscard]] Transfer transfer_at(const Scene& scene, const InstanceRecord& instance, float time) noexcept;
 
 }  // namespace koksma
