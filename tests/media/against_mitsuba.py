@@ -138,7 +138,7 @@ def main():
         b = np.array([np.array(mi.render(scene, spp=spp // REPLICATES, seed=r + 100), dtype=np.float64)[..., :3] for r in range(REPLICATES)])
         mean = [x.mean((1, 2)) for x in (a, b)]
         blocks = [x.reshape(REPLICATES, BLOCKS, 32 // BLOCKS, BLOCKS, 32 // BLOCKS, 3).mean((2, 4)) for x in (a, b)]
-        difference = lambda x, y: (x.mean(0) - y.mean(0), np.sqrt((x.var(0, ddof=1) + y.var(0, ddof=1)) / REPLICATES + 1e-20))
+        difference = lambda x, y: (x.mean(0) - y.mean(0), np.sqrt((x.var(0, ddof=1) + y.var(0, ddof=1)) / REPLICATES + 1e-12))
         d, error = difference(*mean)
         z, z_error = difference(*blocks)
         print(
