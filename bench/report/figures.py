@@ -91,6 +91,10 @@ def _drawable(sampler: SamplerResult) -> list[Point]:
 
 
 def _draw_points(axes: Axes, x: list[float], points: list[Point], look: Style) -> None:
+    """Markers with bars, and the band that joins the bars."""
+    bars = [_bar(point.rmse) for point in points]
+    if len(points) > 1:
+        axes.fill_between(x, [lo for lo, _ in bars], [hi for _, hi in bars], color=look.color, alpha=0.13, linewidth=0)
     for at, point in zip(x, points):
         lo, hi = _bar(point.rmse)
         axes.plot([at, at], [lo, hi], color=look.color, linewidth=1.1, solid_capstyle="butt")

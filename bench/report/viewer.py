@@ -11,6 +11,7 @@ from matplotlib import colormaps
 from .model import Scene
 
 WINDOW = 16  # pixels a side of the window that is shown enlarged
+LUMINANCE = np.array((0.212671, 0.715160, 0.072169))  # of linear Rec. 709
 
 
 @dataclass(frozen=True)
@@ -27,28 +28,40 @@ class Window:
 
 
 def window_of_difference(scene: Scene) -> Window | None:
-    """The window in which the largest and the smallest MSE of the scene's samplers lie furthest apart; None without two maps.
+    """The window in which the largest and the smallest relative MSE of the scene's samplers lie furthest apart; None without two maps.
 
-    The MSE of a pixel is a mean over replicates, so that the noise of one render does not choose.
+    The MSE of a pixel is a mean over replicates, so that the noise of one render does not choose. It is relative to what is there, and
+    pixels that the picture shows as white do not count: a difference is to be seen.
     """
     images = scene.evidence.images if scene.evidence else ()
     if len(images) < 2:
         return None
     stack = np.stack([image.mse_map for image in images])
     height, width = (min(WINDOW, size) for size in stack.shape[1:])
-    # Sums over all windows: differences of the table of sums from the corner.
-    sums = np.pad(stack.cumsum(axis=1).cumsum(axis=2), ((0, 0), (1, 0), (1, 0)))
-    boxes = sums[:, height:, width:] - sums[:, :-height, width:] - sums[:, height:, :-width] + sums[:, :-height, :-width]
+    boxes = _sums_over_windows(stack * _visibility(scene.reference_data) if scene.reference_data is not None else stack, width, height)
     apart = boxes.max(axis=0) - boxes.min(axis=0)
     y, x = np.unravel_index(np.argmax(apart), apart.shape)
-    at = boxes[:, y, x]
+    at = stack[:, y:y + height, x:x + width].sum(axis=(1, 2))
     least = max(float(at.min()), float(np.finfo(np.float32).tiny))
     return Window(int(x), int(y), width, height, images[int(at.argmin())].label, images[int(at.argmax())].label, float(at.max()) / least)
 
 
+def _visibility(reference: np.ndarray) -> np.ndarray:
+    """1 / (luminance^2 + a hundredth of its mean squared), the weight of relMSE; 0 where the picture is white."""
+    luminance = reference @ LUMINANCE
+    weight = 1 / (luminance**2 + 0.01 * luminance.mean() ** 2 + np.finfo(np.float32).tiny)
+    return np.where(luminance * exposure_of(reference) < 1, weight, 0)
+
+
+def _sums_over_windows(maps: np.ndarray, width: int, height: int) -> np.ndarray:
+    """Differences of the table of sums from the corner; shape (maps, places in y, places in x)."""
+    sums = np.pad(maps.cumsum(axis=1).cumsum(axis=2), ((0, 0), (1, 0), (1, 0)))
+    return sums[:, height:, width:] - sums[:, :-height, width:] - sums[:, height:, :-width] + sums[:, :-height, :-width]
+
+
 def exposure_of(reference: np.ndarray) -> float:
     """What brings the luminance that nine tenths of the pixels do not exceed to 0.6; as the program's pictures."""
-    luminance = np.sort((reference @ (0.212671, 0.715160, 0.072169)).ravel())
+    luminance = np.sort((reference @ LUMINANCE).ravel())
     luminance = luminance[np.isfinite(luminance) & (luminance > 0)]
     return 0.6 / float(luminance[int(0.9 * (len(luminance) - 1))]) if len(luminance) else 1.0
 
