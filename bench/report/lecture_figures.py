@@ -23,7 +23,7 @@ def chart(numbers: dict, key: str) -> Markup:
             xs, values = [x for x, _ in points], [y["value"] for _, y in points]
             ends += values
             if series["known"]:
-                axes.plot(xs, values, color=BASELINE_COLOR, dashes=(4, 2), linewidth=1.0, label=series["label"], zorder=1)
+                axes.plot(xs, values, color=BASELINE_COLOR, dashes=(4, 2), linewidth=1.0, label=series["label"], zorder=4)
                 continue
             color, marker = COLORS[k % len(COLORS)], list(MARKERS)[k % len(MARKERS)]
             axes.plot(xs, values, color=color, marker=marker, markersize=5.5, markeredgecolor="white", markeredgewidth=0.6,

@@ -20,7 +20,7 @@ def render_to_file(name: str, context: Callable[[dict, Path], dict], arguments: 
     source, target = map(Path, arguments)
     try:
         # Late, so that the message below needs only the standard library.
-        from jinja2 import Environment, FileSystemLoader, StrictUndefined
+        from jinja2 import Environment, FileSystemLoader, StrictUndefined, UndefinedError
 
         from .__main__ import write_atomically
         from .check import ReportError
@@ -32,6 +32,9 @@ def render_to_file(name: str, context: Callable[[dict, Path], dict], arguments: 
         write_atomically(target, environment.get_template(f"{name}.html.j2").render(numbers=numbers, **context(numbers, source.parent)))
     except ImportError as error:
         print(f"{name}: {error}; expected the Python packages matplotlib, numpy and jinja2", file=sys.stderr)
+        return 1
+    except (KeyError, UndefinedError) as error:
+        print(f"{name}: {source}: {error}; expected the numbers of this version of the program", file=sys.stderr)
         return 1
     except (ReportError, OSError, ValueError) as error:
         print(f"{name}: {error}", file=sys.stderr)

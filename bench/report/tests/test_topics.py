@@ -91,6 +91,7 @@ class TopicPages(unittest.TestCase):
 
     def test_what_is_wrong_is_said_in_one_line(self):
         self.fails(budget, "{", 1, "budget:")
+        self.fails(budget, "{}", 1, "of this version of the program")
         outside = json.loads(json.dumps(LECTURE))
         outside["topics"][0]["pictures"][0]["file"] = "../a.png"
         self.fails(lecture, json.dumps(outside), 1, "inside the results directory")

@@ -12,14 +12,15 @@ namespace koksma::lecture {
 
 void branching(Sheet& sheet) {
     const Lab& lab = sheet.lab();
-    constexpr double kMostRays = 1500;
-    constexpr double kBudget = 256;  // rays a pixel, at which all are compared
-    const Stage stage = open_scattered("cornell.xml", {{"res", "24"}, {"max_depth", "4"}});
+    constexpr double kMostRays = 4000;
+    constexpr double kBudget = 1024;  // rays a pixel, at which all are compared
+    const Stage stage = open_scattered("cornell.xml", {{"res", "16"}, {"max_depth", "4"}});
     const int n = lab.replicates(12);
     for (const bool sobol : {false, true}) {
         const std::string sampler = sobol ? kSobol : kRandom;
         sheet.table(
-            fmt::format("cornell, paths of up to 4 vertices, {}: MSE", sobol ? "Sobol'" : "random"),
+            fmt::format("cornell, paths of up to 4 vertices, {}: MSE of light that was scattered once or more",
+                        sobol ? "Sobol'" : "random"),
             {"branching", "rays through a pixel", "rays in all", "MSE", "MSE x rays", sobol ? "" : "N x MSE over that of one camera ray"});
         sheet.chart(fmt::format("MSE against rays, {}", sobol ? "Sobol'" : "random"), {"rays a pixel in all", "MSE", true, true});
         struct At {
@@ -32,7 +33,6 @@ void branching(Sheet& sheet) {
             Json y = Json::array();
             std::vector<double> x;
             for (std::uint64_t spp = 1; spp <= 1024; spp *= 4) {
-                // 1 + 2 b + 2 b^2 + 2 b^3 rays at most, of which a probe of one sample says how many there are.
                 if (!curve.empty() && curve.back().rays * 4 > kMostRays) break;
                 const Replicates r = replicate(lab, stage, estimator(LightStrategy::mis, "none", b), sampler, spp, n);
                 curve.push_back({r.rays_per_pixel(), squared_errors(r.images)});

@@ -65,12 +65,12 @@ void truncation(Sheet& sheet) {
     for (const double albedo : {0.5, 0.8}) furnace_bias(sheet, albedo);
 
     // A room, against the same room with roulette and without a limit.
-    const Stage cornell = open("cornell.xml", {{"res", "48"}, {"max_depth", "-1"}});
+    const Stage cornell = open_scattered("cornell.xml", {{"res", "48"}, {"max_depth", "-1"}});
     const int n = lab.replicates(16);
     const Replicates whole = replicate(lab, cornell, estimator(LightStrategy::mis), kSobol, 32, n);
     const std::vector<double> truth = means(whole.images);
     const double light = moments(truth).mean;
-    sheet.table("cornell without a limit, 32 samples a pixel",
+    sheet.table("cornell without a limit, 32 samples a pixel; light that was scattered once or more",
                 {"path ends", "rays a sample", "light that is missing (%)", "RMS bias of a pixel (% of the mean light)"});
     const Image whole_mean = mean_image(whole.images);
     sheet.row({"by roulette (throughput)", rays_per_sample(whole), exactly(0.0), "-"});
