@@ -25,7 +25,7 @@ using Json = nlohmann::ordered_json;
 BenchScene scene_of(const BudgetCommand& command, const Experiment& experiment) {
     if (command.scene.extension() != ".xml") return std::move(open_scenes(experiment, {command.scene.string()}).front());
     const Scene scene = compile(load_scene(command.scene));
-    return open_scene({command.scene, command.scene.stem().string(), crop_of(scene.film)});
+    return open_scene({.file = command.scene, .name = command.scene.stem().string(), .crop = crop_of(scene.film)});
 }
 
 Json estimate_json(const std::vector<double>& mse) {

@@ -14,8 +14,8 @@
 namespace koksma {
 
 struct ExperimentScene {
-    std::filesystem::path file;
-    std::string name;                ///< the file's stem, and the effects where they are not the needed ones
+    std::filesystem::path file{};
+    std::string name{};              ///< the file's stem, and the effects where they are not the needed ones
     std::string effects = "needed";  ///< as effects_of() takes them
     PixelRect crop{};                ///< where errors are measured
     std::vector<Prediction> predictions{};
@@ -23,7 +23,7 @@ struct ExperimentScene {
 
 /// Renders of each sampler on each scene: replicates[i] of them at spp[i].
 struct Experiment {
-    std::filesystem::path file;
+    std::filesystem::path file{};
     std::string name, title;
     std::vector<ExperimentScene> scenes;
     std::vector<std::string> samplers;
