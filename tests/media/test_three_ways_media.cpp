@@ -60,7 +60,7 @@ public:
         const Vec3f wi = sample_phase(g_, {0, 0, 1}, u.pair());
         Surface met;
         const auto [through, end] = walk(s.p, wi, kInfinity, met);
-        return s.weight * through * to_double(end ? emitted<kAll>(scene_, met, -wi) : environment_radiance<kAll>(scene_, wi));
+        return s.weight * through * to_double(end ? emitted<kAll>(scene_, met, -wi) : environment_value(scene_, wi).radiance);
     }
 
 private:
