@@ -36,7 +36,7 @@ TEST_CASE("N: a ray that leaves a convex instance does not meet it, and one that
     const FlushDenormals flush;
     std::mt19937_64 rng(1);
     std::uniform_real_distribution<double> u(-1.0, 1.0);
-    std::uint64_t outward = 0, inward = 0, met_again = 0, missed = 0, outside_bound = 0;
+    std::uint64_t outward = 0, inward = 0, met_again = 0, missed = 0, through = 0, outside_bound = 0;
     for (int trial = 0; trial < 400; ++trial) {
         SceneDescription d = empty_scene();
         const bool cube = trial % 2 == 0;
@@ -75,15 +75,21 @@ TEST_CASE("N: a ray that leaves a convex instance does not meet it, and one that
                 const Hit met = closest_hit<kAll>(scene, next);
                 ++(out ? outward : inward);
                 met_again += out && met.valid();
-                missed += !out && !met.valid();
+                // Next to an edge the way inside may be shorter than the bound. A ray that starts inside must find its way out.
+                const Vec3d start = point_by(transfer.to_own, to_double(next.o));
+                const double distance = cube ? std::max({std::fabs(start.x), std::fabs(start.y), std::fabs(start.z)}) : length(start);
+                const bool inside = !out && distance < 0.5 - 1e-6;
+                through += inside;
+                missed += inside && !met.valid();
             }
         }
     }
-    INFO(outward << " outward, " << met_again << " met again; " << inward << " inward, " << missed << " missed; " << outside_bound << " points outside their bounds");
+    INFO(outward << " outward, " << met_again << " met again; " << inward << " inward, " << through << " from inside, " << missed << " missed; " << outside_bound << " points outside their bounds");
     CHECK(outward > 100'000);
     CHECK(inward > 100'000);
     CHECK(met_again == 0);
-    CHECK(static_cast<double>(missed) <= 1e-4 * static_cast<double>(inward));  // next to an edge the way inside is shorter than the bound
+    CHECK(static_cast<double>(through) > 0.95 * static_cast<double>(inward));
+    CHECK(missed == 0);
     CHECK(outside_bound == 0);
 }
 

@@ -74,6 +74,21 @@ class Experiments(ProgramTest):
         self.refuses_change(lambda e: e.update(layouts=1001), '"layouts" is 1001', "1000")
         self.refuses_change(lambda e: e.update(samplers=["bogus"]), "unknown sampler 'bogus'", code=2)
 
+    def test_sets_of_effects(self):
+        self.refuses_change(lambda e: e.update(effects=["all"]), '"effects"', '"needed"')
+        self.refuses_change(lambda e: e.update(effects=["needed", "lense"]), "unknown effect 'lense'", code=2)
+        self.refuses_change(lambda e: e.update(effects=["needed", "lens"]), "lack what the scene calls for")
+        self.write("tiny.json", json.dumps(dict(TINY, effects=["needed", "all"])))
+        self.succeeds("bench", "tiny.json", "-o", "out", "--no-report")
+        plain, forced = json.loads(self.read("out/summary.json"))["scenes"]
+        self.assertEqual((plain["name"], forced["name"], plain["cost_of_effects"]), ("scene", "scene+all", None))
+        cost = forced["cost_of_effects"]
+        self.assertLess(set(cost["needed"]), set(cost["forced"]))
+        self.assertLess(cost["dimensions_needed"], cost["dimensions"])
+        self.assertEqual({(line["sampler"].split(":")[0], line["spp"]) for line in cost["lines"]}, {(s, n) for s in TINY["samplers"] for n in TINY["spp"]})
+        for line in cost["lines"]:
+            self.assertGreater(line["time_ratio"]["value"], 0)
+
     def test_crops(self):
         for crop in [[4, 4, 13, 8], [16, 0, 1, 1], [2147483647, 0, 2147483647, 1]]:
             self.refuses_change(lambda e: e["scenes"][0].update(crop=crop), "scene.xml", "not inside the film of 16x16")

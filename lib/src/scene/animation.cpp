@@ -55,19 +55,24 @@ double deviation(const glm::dmat4& a, const glm::dmat4& b, double size, double w
     return std::max(largest(glm::dmat3(a) - glm::dmat3(b)) / size, std::max({t.x, t.y, t.z}) / (size + way));
 }
 
-}  // namespace
-
-glm::dmat4 placement_at(const Animation& animation, double time) {
-    const auto after = std::find_if(animation.begin(), animation.end(), [&](const Keyframe& k) { return k.time > time; });
+/// @param parts  gives the parts of a keyframe by its index
+template <class F>
+glm::dmat4 interpolated(const Animation& animation, F&& parts, double time) {
+    const auto after = std::upper_bound(animation.begin(), animation.end(), time, [](double t, const Keyframe& k) { return t < k.time; });
     if (after == animation.begin()) return after->to_world;
     if (after == animation.end()) return animation.back().to_world;
     const Keyframe &first = *(after - 1), &second = *after;
-    if (first.to_world == second.to_world) return first.to_world;
     const double f = (time - first.time) / (second.time - first.time);
-    if (f == 0.0) return first.to_world;
-    const Parts a = taken_apart(first.to_world), b = taken_apart(second.to_world);
-    return put_together(
-        {glm::mix(a.translation, b.translation, f), glm::slerp(a.rotation, b.rotation, f), a.stretch * (1.0 - f) + b.stretch * f});
+    if (f == 0.0 || first.to_world == second.to_world) return first.to_world;
+    const auto index = static_cast<std::size_t>(after - animation.begin());
+    const Parts a = parts(index - 1), b = parts(index);
+    return put_together({glm::mix(a.translation, b.translation, f), glm::slerp(a.rotation, b.rotation, f), a.stretch * (1.0 - f) + b.stretch * f});
+}
+
+}  // namespace
+
+glm::dmat4 placement_at(const Animation& animation, double time) {
+    return interpolated(animation, [&](std::size_t i) { return taken_apart(animation[i].to_world); }, time);
 }
 
 std::vector<glm::dmat4> sampled(const Animation& animation, double open, double close) {
@@ -78,7 +83,9 @@ std::vector<glm::dmat4> sampled(const Animation& animation, double open, double 
         instants.push_back(static_cast<double>(i) / static_cast<double>(4 * kMostMotionSteps));
     for (const Keyframe& k : animation)
         if (k.time > open && k.time < close) instants.push_back((k.time - open) / (close - open));
-    const auto at = [&](double f) { return placement_at(animation, open + f * (close - open)); };
+    std::vector<Parts> parts;
+    for (const Keyframe& k : animation) parts.push_back(taken_apart(k.to_world));
+    const auto at = [&](double f) { return interpolated(animation, [&](std::size_t i) { return parts[i]; }, open + f * (close - open)); };
     std::vector<glm::dmat4> exact;
     double size = 0.0, way = 0.0;
     bool moves = false;
