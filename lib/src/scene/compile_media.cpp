@@ -109,7 +109,10 @@ void compile_media(Scene& scene, glm::dvec3 origin) {
         const Shape& s = shape_of(d, i);
         scene.boundaries.push_back({s.interior.has_value() || s.exterior.has_value(), record(s.interior), record(s.exterior)});
     }
-    if (scene.media.empty()) scene.boundaries.clear();
+    if (scene.media.empty())
+        scene.boundaries.clear();
+    else
+        scene.boundaries.resize(scene.geometries.size());
 }
 
 }  // namespace koksma::detail
