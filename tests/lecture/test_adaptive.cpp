@@ -80,7 +80,7 @@ Measured adaptive(const Ready& ready, AdaptiveMode mode, int replicates) {
 
 }  // namespace
 
-TEST_CASE("two stages have no bias; one stage has one, downwards", "[lecture]") {
+TEST_CASE("two stages have no bias, one stage has one, downwards", "[lecture]") {
     const Ready ready(rare_light());
     const double truth = measure(ready, 4096, 16).mean;
     const Measured two = adaptive(ready, AdaptiveMode::two_stage, 1200), one = adaptive(ready, AdaptiveMode::one_stage, 1200);

@@ -45,7 +45,7 @@ TEST_CASE("the recursive estimator gives what the reference kernel gives, path b
     CHECK(compared >= 25);
 }
 
-TEST_CASE("light found by meeting it, by sampling it and by both is the same light; so are directions from the BSDF and uniform ones",
+TEST_CASE("light met, sampled or both is the same light, whether directions come from the BSDF or are uniform",
           "[lecture]") {
     SceneDescription d = floor_scene();
     const std::uint32_t rough = add_material(d, RoughConductor{});

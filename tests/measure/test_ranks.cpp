@@ -48,7 +48,7 @@ TEST_CASE("p is below 5 percent exactly where the 95 percent interval excludes 1
     CHECK(apart < 150);
 }
 
-TEST_CASE("of ten equal samplers some pair seems to differ; after Holm hardly ever", "[unit][measure]") {
+TEST_CASE("of ten equal samplers some pair seems to differ, after Holm hardly ever", "[unit][measure]") {
     constexpr int kFamilies = 200;
     int plain = 0, corrected = 0;
     Generator g(11);
