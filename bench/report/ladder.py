@@ -77,7 +77,8 @@ def error_plot(ladder: dict) -> str:
             broken = [(at, e) for (at, r), e in zip(rows, error) if not r["holds"]]
             if broken:
                 axes.plot(*zip(*broken), linestyle="", marker="x", markersize=9, color="#b00020", markeredgewidth=1.8)
-        axes.set_ylim(bottom=FLOOR / 2, top=None)
+        top = max(abs(r["error"]) + r["half_width"] for step in steps for r in step["techniques"].values())
+        axes.set_ylim(FLOOR / 2, 3 * max(top, ladder["tolerance"]))
         axes.set_xlabel(ladder["axis"])
         axes.set_ylabel("relative error")
         axes.legend(loc="upper left", ncols=3, frameon=False)

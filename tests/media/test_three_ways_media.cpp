@@ -60,7 +60,8 @@ public:
         const Vec3f wi = sample_phase(g_, {0, 0, 1}, u.pair());
         Surface met;
         const auto [through, end] = walk(s.p, wi, kInfinity, met);
-        return s.weight * through * to_double(end ? emitted<kAll>(scene_, met, -wi) : environment_value(scene_, wi).radiance);
+        const Vec3f sky = scene_.environment_light >= 0 ? environment_value(scene_, wi).radiance : Vec3f{0.0f};
+        return s.weight * through * to_double(end ? emitted<kAll>(scene_, met, -wi) : sky);
     }
 
 private:
