@@ -9,28 +9,35 @@ struct LightSamplePack {
     Mask delta, at_infinity;
 };
 
-/// A scene's only light, if it is one or two triangles without textures or normals: nothing to gather then.
+/// A scene's only light, if it is one or two triangles without textures: nothing to gather then.
 struct SingleLight {
     bool usable = false;
-    Vec3f vertices[2][3];
+    std::int32_t word = 0;  ///< of its geometry's record
+    Vec3f vertices[2][3], normals[2][3];
     explicit SingleLight(const Scene& scene) {
         if (scene.lights.size() != 1) return;
         const Light& light = scene.lights[0];
         const std::size_t count = light.kind == LightKind::parallelogram ? 2 : light.kind == LightKind::mesh ? light.triangles.size() : 0;
-        if (count < 1 || count > 2 || light.radiance.index >= 0 || scene.geometries[light.geometry].has_normals) return;
+        if (count < 1 || count > 2 || light.radiance.index >= 0) return;
+        const GeometryRecord& g = scene.geometries[light.geometry];
         for (std::size_t t = 0; t < 2; ++t)
-            for (std::size_t v = 0; v < 3; ++v)
-                vertices[t][v] = scene.positions[scene.triangles[scene.geometries[light.geometry].first + (t < count ? t : 0)][v]];
+            for (std::size_t v = 0; v < 3; ++v) {
+                const std::uint32_t index = scene.triangles[g.first + (t < count ? t : 0)][v];
+                vertices[t][v] = scene.positions[index];
+                if (g.has_normals) normals[t][v] = scene.normals[index];
+            }
+        word = (g.flip ? 1 << 8 : 0) | (g.has_normals ? 1 << 16 : 0);
         usable = true;
     }
     [[nodiscard]] TrianglePack triangle(Int32 which) const {
-        const Mask second = which == Int32(1);
-        const auto vertex = [&](int v) { return select<Float>(second, Vec3<Float>::splat(vertices[1][v]), Vec3<Float>::splat(vertices[0][v])); };
         TrianglePack t;
-        t.v0 = vertex(0);
-        t.v1 = vertex(1);
-        t.v2 = vertex(2);
+        t.v0 = of_vertex(vertices, which, 0);
+        t.v1 = of_vertex(vertices, which, 1);
+        t.v2 = of_vertex(vertices, which, 2);
         return t;
+    }
+    [[nodiscard]] static Vec3<Float> of_vertex(const Vec3f (&of)[2][3], Int32 which, int vertex) {
+        return select<Float>(which == Int32(1), Vec3<Float>::splat(of[1][vertex]), Vec3<Float>::splat(of[0][vertex]));
     }
 };
 
@@ -138,12 +145,13 @@ template <EffectSet kEffects>
     Float area;
     if (single.usable) {
         const Light& only = lights[0];
-        s = triangle_surface_pack<kEffects>(scene, single.triangle(triangle), Int32(scene.geometries[only.geometry].flip ? 1 << 8 : 0), active, b);
+        const auto normal = [&](int vertex, Mask) { return SingleLight::of_vertex(single.normals, triangle, vertex); };
+        s = triangle_surface_pack<kEffects>(scene, single.triangle(triangle), Int32(single.word), active, b, normal);
         area = Float(only.area);
     } else {
         const Int32 geometry = gather_int(lights, offsetof(Light, geometry), light);
         const TrianglePack t = gather_triangle(scene, gather_int(records, offsetof(GeometryRecord, first), geometry) + triangle);
-        s = triangle_surface_pack<kEffects>(scene, t, gather_int(records, 0, geometry), active, b);
+        s = triangle_surface_pack<kEffects>(scene, t, gather_int(records, 0, geometry), active, b, GatheredNormals{scene, t});
         area = gather_float(lights, offsetof(Light, area), light);
         if constexpr (kEffects.has(Effect::many_lights)) area = area_of_triangles(scene, active, choice, area);
     }

@@ -119,9 +119,17 @@ inline Vec3<Float> normals_of_needles(const TrianglePack& t, Mask needle, const 
     return n.pack();
 }
 
-/// @param word  first word of the geometries' records
-template <EffectSet kEffects>
-[[nodiscard]] SurfacePack triangle_surface_pack(const Scene& scene, const TrianglePack& t, Int32 word, Mask active, Vec2<Float> b) {
+/// The vertices' normals, of lanes that have some. Others read entry 0, which is there when any mesh has normals.
+struct GatheredNormals {
+    const Scene& scene;
+    const TrianglePack& t;
+    [[nodiscard]] Vec3<Float> operator()(int vertex, Mask m) const { return gather_vector(scene.normals.data(), 0, select(m, t.index[vertex], Int32(0))); }
+};
+
+/// @param word    first word of the geometries' records
+/// @param normal  called with a vertex, 0 to 2, and the lanes that have normals
+template <EffectSet kEffects, class Normal>
+[[nodiscard]] SurfacePack triangle_surface_pack(const Scene& scene, const TrianglePack& t, Int32 word, Mask active, Vec2<Float> b, const Normal& normal) {
     const TrianglePointOf<Float> point = triangle_point(t.v0, t.v1, t.v2, b);
     SurfacePack s;
     s.p = point.p;
@@ -129,11 +137,8 @@ template <EffectSet kEffects>
     s.ng = s.n = point.ng;
     if (const Mask needle = active & is_needle(t.v0, t.v1, t.v2); any(needle)) s.ng = s.n = normals_of_needles(t, needle, point.ng);
     if constexpr (kEffects.has(Effect::shading_normals))
-        if (const Mask m = active & flag<2>(word); any(m)) {
-            // Lanes without normals read entry 0, which is there when any mesh has normals.
-            const auto normal = [&](int i) { return gather_vector(scene.normals.data(), 0, select(m, t.index[i], Int32(0))); };
-            assign<Float>(m, s.n, interpolated_normal(normal(0), normal(1), normal(2), point.b0, b, s.ng));
-        }
+        if (const Mask m = active & flag<2>(word); any(m))
+            assign<Float>(m, s.n, interpolated_normal(normal(0, m), normal(1, m), normal(2, m), point.b0, b, s.ng));
     if (const Mask m = flag<1>(word); any(m)) {
         assign<Float>(m, s.ng, -s.ng);
         assign<Float>(m, s.n, -s.n);
@@ -214,7 +219,7 @@ template <EffectSet kEffects>
     if (!kAlone || any(meshes)) {
         const Int32 triangle = select(meshes, gather_int(records, offsetof(GeometryRecord, first), g) + primitive, Int32(0));
         const TrianglePack t = gather_triangle(scene, triangle);
-        s = triangle_surface_pack<kEffects>(scene, t, word, meshes, barycentrics(t.v0, t.v1, t.v2, o, d));
+        s = triangle_surface_pack<kEffects>(scene, t, word, meshes, barycentrics(t.v0, t.v1, t.v2, o, d), GatheredNormals{scene, t});
         if (const Mask coarse = meshes & (is_coarse(s.p, s.p_error, o) | is_needle(t.v0, t.v1, t.v2)); any(coarse))
             refine(t, o, d, coarse, s);
     }
