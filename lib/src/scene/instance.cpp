@@ -18,7 +18,8 @@ Transfer transfer_at(const Scene& scene, const InstanceRecord& instance, float t
 Surface detail::instanced_surface_at(const Scene& scene, const Ray& ray, Hit hit) noexcept {
     const InstanceRecord& instance = scene.instances[hit.instance];
     const Transfer transfer = transfer_at(scene, instance, ray.time);
-    const Ray own{to_float(point_by(transfer.to_own, to_double(ray.o))), to_float(vector_by(transfer.to_own, to_double(ray.d))), ray.t_near, ray.t_far};
+    const Ray own{to_float(point_by(transfer.to_own, to_double(ray.o))), to_float(vector_by(transfer.to_own, to_double(ray.d))), ray.t_near,
+                  ray.t_far};
     Surface s = own_surface_at<EffectSet::all(), true>(scene, own, hit);
     const auto unit = [&](Vec3f n) {
         const Vec3d v = normal_by_inverse(transfer.to_own, to_double(n));
