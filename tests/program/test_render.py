@@ -11,7 +11,7 @@ RENDER = ["render", "scene.xml", "-q"]
 
 # Key of the statistics -> type, as documented for --stats.
 STATS = {"scene": str, "scene_hash": str, "sampler": str, "sampler_version": int, "spp": int, "seed": int, "film": list, "crop": list,
-         "max_depth": int, "rr_depth": int, "effects": list, "dimensions": int, "kernel": str, "wall_seconds": float,
+         "max_depth": int, "rr_depth": int, "technique": str, "effects": list, "dimensions": int, "kernel": str, "wall_seconds": float,
          "cpu_seconds": float, "sampler_seconds": float, "paths": int, "rays": int, "rays_closest": int, "rays_shadow": int,
          "tail_numbers": int, "invalid_samples": int, "invalid": list, "mean_rgb": list, "commit": str, "embree": str}
 

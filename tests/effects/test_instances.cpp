@@ -32,7 +32,7 @@ Vec3f random_direction(std::mt19937_64& rng) {
 
 }  // namespace
 
-TEST_CASE("N: a ray that leaves a convex instance does not meet it, and one that enters does", "[hard]") {
+TEST_CASE("a ray that leaves a convex instance does not meet it, and one that enters does", "[effects]") {
     const FlushDenormals flush;
     std::mt19937_64 rng(1);
     std::uniform_real_distribution<double> u(-1.0, 1.0);
@@ -93,7 +93,7 @@ TEST_CASE("N: a ray that leaves a convex instance does not meet it, and one that
     CHECK(outside_bound == 0);
 }
 
-TEST_CASE("N: instances look like the shapes themselves, placed one by one", "[hard]") {
+TEST_CASE("instances look like the shapes themselves, placed one by one", "[effects]") {
     const std::vector<Matrix> places{translated({-1.2, 0, 0}), translated({1.2, 0.1, 0.4}) * rotated({0, 1, 0}, 40) * scaled({0.6, 1.4, 0.8}),
                                      translated({0, 0, -0.8}) * rotated({0, 0.6, 0.8}, 30) * scaled({-0.7, 0.9, 0.6})};
     SceneDescription d = empty_scene(24, 16);
@@ -134,7 +134,7 @@ TEST_CASE("N: instances look like the shapes themselves, placed one by one", "[h
     CHECK(far <= 20);
 }
 
-TEST_CASE("N: a group cannot emit", "[hard]") {
+TEST_CASE("a group cannot emit", "[effects]") {
     SceneDescription d = empty_scene(), group = empty_scene();
     add_light(group, SphereShape{}, Matrix(1.0), Rgb(1.0f));
     d.groups.push_back({"g", group.shapes, {}});
