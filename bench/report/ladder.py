@@ -64,6 +64,8 @@ def error_plot(ladder: dict) -> str:
         steps = ladder["steps"]
         if steps[0]["x"] > steps[-1]["x"]:
             axes.invert_xaxis()
+        top = max(abs(r["error"]) + r["half_width"] for step in steps for r in step["techniques"].values())
+        axes.set_ylim(FLOOR / 2, 3 * max(top, ladder["tolerance"]))
         axes.axhline(ladder["tolerance"], color="#8a8a8a", linewidth=0.9, dashes=(4, 3))
         for technique in ladder["verdicts"]:
             color, marker = LOOKS[technique]
@@ -77,8 +79,6 @@ def error_plot(ladder: dict) -> str:
             broken = [(at, e) for (at, r), e in zip(rows, error) if not r["holds"]]
             if broken:
                 axes.plot(*zip(*broken), linestyle="", marker="x", markersize=9, color="#b00020", markeredgewidth=1.8)
-        top = max(abs(r["error"]) + r["half_width"] for step in steps for r in step["techniques"].values())
-        axes.set_ylim(FLOOR / 2, 3 * max(top, ladder["tolerance"]))
         axes.set_xlabel(ladder["axis"])
         axes.set_ylabel("relative error")
         axes.legend(loc="upper left", ncols=3, frameon=False)
