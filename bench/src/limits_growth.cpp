@@ -96,7 +96,8 @@ void print_row(std::uint64_t n, const Cost& c) {
     fmt::print("  {:>10}{:>14.0f}{:>12.3f}{:>16.1f}\n", n, c.seconds_per_path * 1e9, c.rays_per_path, peak_memory_mb());
 }
 Json json_row(const char* key, std::uint64_t n, const Cost& c) {
-    return {{key, n}, {"cpu_ns_per_path", c.seconds_per_path * 1e9}, {"rays_per_path", c.rays_per_path}, {"peak_memory_mb", peak_memory_mb()}};
+    return {
+        {key, n}, {"cpu_ns_per_path", c.seconds_per_path * 1e9}, {"rays_per_path", c.rays_per_path}, {"peak_memory_mb", peak_memory_mb()}};
 }
 
 }  // namespace
@@ -110,7 +111,8 @@ Json measure_growth(const LimitsCommand& command, SceneSetup& setup) {
         setup.scene.accelerator.commit(!command.not_robust);
         const double wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();
         const double cpu_seconds = process_seconds() - cpu, own_seconds = thread_seconds() - own;
-        fmt::print("  BVH: {:.3f} s of wall time, {:.3f} s of CPU time, {:.3f} s of them on the calling thread\n", wall_seconds, cpu_seconds, own_seconds);
+        fmt::print("  BVH: {:.3f} s of wall time, {:.3f} s of CPU time, {:.3f} s of them on the calling thread\n", wall_seconds,
+                   cpu_seconds, own_seconds);
         figures["bvh"] = {{"wall_seconds", wall_seconds}, {"cpu_seconds", cpu_seconds}, {"calling_thread_seconds", own_seconds}};
     }
 

@@ -28,9 +28,9 @@ struct InversionTable {
 
 /// What drawing a direction reads.
 struct EnvironmentCells {
-    InversionTable rows, columns;      ///< one row of rows; a row of columns for each
+    InversionTable rows, columns;       ///< one row of rows; a row of columns for each
     const float* half_sine2 = nullptr;  ///< sin^2(theta / 2) where each row of cells begins, and where the last one ends
-    Vec3f axis_x, axis_y, axis_z;      ///< rows of world-to-map
+    Vec3f axis_x, axis_y, axis_z;       ///< rows of world-to-map
 };
 
 }  // namespace koksma
@@ -49,7 +49,8 @@ struct InversionSampleOf {
 template <class Real>
 [[nodiscard]] InversionSampleOf<Real> invert(const InversionTable& t, IntOf<Real> row, Real u) noexcept {
     using Int = IntOf<Real>;
-    const Int x = to_int(u * Real(static_cast<float>(kWhole))), part = row * Int(t.parts + 1) + to_int(u * Real(static_cast<float>(t.parts)));
+    const Int x = to_int(u * Real(static_cast<float>(kWhole))),
+              part = row * Int(t.parts + 1) + to_int(u * Real(static_cast<float>(t.parts)));
     const Int first = row * Int(t.entries + 1);
     // The last entry that begins at x or before: those of no width are passed over.
     Int low = gather(t.guide, part), high = gather(t.guide + 1, part);
@@ -77,8 +78,10 @@ template <class Real>
     const Int from = select(north, row.index, count - row.index), to = select(north, row.index + Int(1), count - row.index - Int(1));
     const Real s0 = gather(cells.half_sine2, from), s1 = gather(cells.half_sine2, to);
     const Real s = s0 + (s1 - s0) * row.u;
-    const Real height = Real(1.0f) - Real(2.0f) * s, cos_theta = select(north, height, -height), sin_theta = Real(2.0f) * sqrt(s * (Real(1.0f) - s));
-    const SinCosOf<Real> phi = sincos_turns((to_real(column.index) + column.u + Real(0.5f)) / Real(static_cast<float>(cells.columns.entries)));
+    const Real height = Real(1.0f) - Real(2.0f) * s, cos_theta = select(north, height, -height),
+               sin_theta = Real(2.0f) * sqrt(s * (Real(1.0f) - s));
+    const SinCosOf<Real> phi =
+        sincos_turns((to_real(column.index) + column.u + Real(0.5f)) / Real(static_cast<float>(cells.columns.entries)));
     return Vec3<Real>::splat(cells.axis_x) * (sin_theta * phi.sin) + Vec3<Real>::splat(cells.axis_y) * cos_theta -
            Vec3<Real>::splat(cells.axis_z) * (sin_theta * phi.cos);
 }
