@@ -81,7 +81,7 @@ def error_plot(ladder: dict) -> str:
                 axes.plot(*zip(*broken), linestyle="", marker="x", markersize=9, color="#b00020", markeredgewidth=1.8)
         axes.set_xlabel(ladder["axis"])
         axes.set_ylabel("relative error")
-        axes.legend(loc="upper left", ncols=3, frameon=False)
+        axes.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=3, frameon=False, borderaxespad=0.2)
         axes.grid(True, which="major", color="#e6e6e6", linewidth=0.6)
         axes.set_axisbelow(True)
         return inline_svg(figure, key, f"{ladder['title']}: relative error")

@@ -260,6 +260,19 @@ TEST_CASE("files that are not images are refused", "[unit][scene]") {
     CHECK_ERROR(error_from([&] { (void)load_image(files.write("x.exr", "\x76\x2f\x31\x01zzzz"), false); }), "x.exr", "cannot be decoded");
 }
 
+TEST_CASE("pictures that claim more than they hold are refused before memory is asked for", "[unit][scene]") {
+    const SceneFiles files;
+    std::string png = kPngBytes;
+    REQUIRE(png.substr(37, 4) == "IDAT");
+    png[33] = '\x44';
+    CHECK_ERROR(error_from([&] { (void)load_image(files.write("x.png", png), false); }), "x.png", "PNG chunk at byte 33", "the file ends after");
+    png = kPngBytes;
+    png[18] = png[22] = '\x10';  // 4098 pixels wide, as many high
+    CHECK_ERROR(error_from([&] { (void)load_image(files.write("x.png", png), false); }), "x.png", "cannot hold the 4098 x 4098 pixels");
+    CHECK_ERROR(error_from([&] { (void)load_image(files.write("x.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 20000 +X 20000\n"), false); }), "x.hdr",
+                "cannot hold the 20000 x 20000 pixels");
+}
+
 TEST_CASE("textures take filter, wrapping, transform and check their range", "[unit][scene]") {
     const SceneFiles files;
     files.write("t.png", kPngBytes);

@@ -1,6 +1,7 @@
 // PNG, JPEG and HDR by stb_image, whose implementation is in this file alone.
 
 #include "image.h"
+#include "image_claims.h"
 
 #include <koksma/sampling/error.h>
 
@@ -73,6 +74,7 @@ Image decode_stb(const std::string& bytes, const std::string& name, bool raw) {
     const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
     const int size = static_cast<int>(bytes.size());
     int width = 0, height = 0, channels = 0;
+    if (stbi_info_from_memory(data, size, &width, &height, &channels) != 0) check_claims(bytes, width, height, name);
     if (stbi_is_hdr_from_memory(data, size)) {
         float* loaded = stbi_loadf_from_memory(data, size, &width, &height, &channels, 3);
         return decode(loaded, width, height, name, [](float v) { return v; });
