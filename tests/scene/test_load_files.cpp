@@ -269,6 +269,8 @@ TEST_CASE("pictures that claim more than they hold are refused before memory is 
     png = kPngBytes;
     png[18] = png[22] = '\x10';  // 4098 pixels wide, as many high
     CHECK_ERROR(error_from([&] { (void)load_image(files.write("x.png", png), false); }), "x.png", "cannot hold the 4098 x 4098 pixels");
+    const std::string table = "\xff\xd8\xff\xc4\x01\x20" + std::string(3, '\0') + std::string(14, '\x14') + std::string(300, '\0');
+    CHECK_ERROR(error_from([&] { (void)load_image(files.write("x.jpg", table), false); }), "x.jpg", "Huffman table at byte 6 has 280 codes", "at most 256");
     CHECK_ERROR(error_from([&] { (void)load_image(files.write("x.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 20000 +X 20000\n"), false); }), "x.hdr",
                 "cannot hold the 20000 x 20000 pixels");
 }

@@ -31,13 +31,42 @@ void check_chunks(const std::string& bytes, const std::string& name) {
     }
 }
 
+/// Codes of all Huffman tables: stb_image 2.27 writes them into arrays of 257 without counting.
+/// Source: ITU-T T.81, sections B.1.1 (markers) and B.2.4.2 (tables: class and place, 16 counts, values).
+void check_huffman_tables(const std::string& bytes, const std::string& name) {
+    const auto byte = [&](std::size_t i) { return i < bytes.size() ? std::size_t{static_cast<unsigned char>(bytes[i])} : 0; };
+    for (std::size_t at = 2; at + 3 < bytes.size();) {
+        const std::size_t marker = byte(at + 1);
+        if (byte(at) != 0xff || marker == 0xff) {  // coded data, or fill bytes
+            ++at;
+            continue;
+        }
+        at += 2;
+        if (marker <= 0x01 || (marker >= 0xd0 && marker <= 0xd9)) continue;  // a stuffed byte, and markers without a segment
+        const std::size_t end = at + (byte(at) << 8 | byte(at + 1));
+        if (marker == 0xc4)
+            for (std::size_t table = at + 2; table < end;) {
+                std::size_t codes = 0;
+                for (std::size_t i = 1; i <= 16; ++i) codes += byte(table + i);
+                if (codes > 256)
+                    throw Error(name + ": the Huffman table at byte " + std::to_string(table) + " has " + std::to_string(codes) + " codes; expected at most 256");
+                table += 17 + codes;
+            }
+        if (marker != 0xda) at = end;
+    }
+}
+
 }  // namespace
 
-void check_claims(const std::string& bytes, std::int64_t width, std::int64_t height, const std::string& name) {
+void check_claims(const std::string& bytes, const std::string& name) {
+    if (starts_with(bytes, kPng)) check_chunks(bytes, name);
+    if (starts_with(bytes, "\xff\xd8")) check_huffman_tables(bytes, name);
+}
+
+void check_size(const std::string& bytes, std::int64_t width, std::int64_t height, const std::string& name) {
     const auto size = static_cast<std::int64_t>(bytes.size());
     if (width > 0 && height > densest(bytes) * size / width)
         throw Error(name + ": " + std::to_string(size) + " bytes cannot hold the " + std::to_string(width) + " x " + std::to_string(height) + " pixels that it claims");
-    if (starts_with(bytes, kPng)) check_chunks(bytes, name);
 }
 
 }  // namespace koksma::loader

@@ -74,7 +74,8 @@ Image decode_stb(const std::string& bytes, const std::string& name, bool raw) {
     const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
     const int size = static_cast<int>(bytes.size());
     int width = 0, height = 0, channels = 0;
-    if (stbi_info_from_memory(data, size, &width, &height, &channels) != 0) check_claims(bytes, width, height, name);
+    check_claims(bytes, name);  // before anything is decoded
+    if (stbi_info_from_memory(data, size, &width, &height, &channels) != 0) check_size(bytes, width, height, name);
     if (stbi_is_hdr_from_memory(data, size)) {
         float* loaded = stbi_loadf_from_memory(data, size, &width, &height, &channels, 3);
         return decode(loaded, width, height, name, [](float v) { return v; });
