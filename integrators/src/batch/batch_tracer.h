@@ -149,7 +149,8 @@ private:
         const Int32 geometry = Int32::load(geometry_ + at), primitive = Int32::load(primitive_ + at);
         Int32 instance(-1);
         Float time{};
-        if constexpr (kInstancing) instance = Int32::load(instance_ + at);
+        if constexpr (kInstancing)
+            if (!sorted_) instance = Int32::load(instance_ + at);  // scenes that are sorted have none
         if constexpr (kMotion) time = Float::load(q.time + at);
         stats_.rays.closest += static_cast<std::uint64_t>(count(active));
         if (!hashes_.empty()) hash_hits(active, geometry, primitive, instance);
