@@ -11,7 +11,10 @@
 
 #include <bit>
 #include <cstddef>
+#include <limits>
 #include <memory>
+#include <span>
+#include <utility>
 #include <vector>
 
 #define KOKSMA_SHARED_MATHS <koksma/scene/all_maths.h>

@@ -20,6 +20,9 @@ KOKSMA_MATHS_END
 #include "bsdf_lanes.h"
 #include "batch_numbers.h"
 #include "ray_order.h"
+#include "path_sums.h"
+#include "shadow_rays.h"
+#include "escaped_rays.h"
 
 KOKSMA_MATHS_BEGIN
 
@@ -27,6 +30,7 @@ template <EffectSet kEffects>
 class BatchTracer final : public Tracer {
     static constexpr bool kSmooth = kEffects.has(Effect::diffuse) || kEffects.has(Effect::glossy);
     static constexpr bool kExtendedLights = kEffects.has(Effect::area_light) || kEffects.has(Effect::environment);
+    static constexpr bool kPosition = kEffects.has(Effect::area_light) || kEffects.has(Effect::many_lights);  ///< is asked where a path was
     static constexpr bool kInstancing = kEffects.has(Effect::instancing), kMotion = kEffects.has(Effect::motion);
     static constexpr bool kDelta = kEffects.has(Effect::specular) || kEffects.has(Effect::dielectric);
     static constexpr std::size_t kPack = static_cast<std::size_t>(kLanes);
@@ -41,17 +45,15 @@ public:
           numbers_(job, stats_),
           single_light_(job.scene),
           paths_(std::make_unique<detail::PathQueue>()),
-          shadows_(std::make_unique<detail::ShadowQueue>()),
-          escaped_(std::make_unique<detail::EscapeQueue>()),
+          shadows_(job.scene),
+          escaped_(job.scene),
           order_(job.scene) {
         for (std::uint32_t& m : packet_.mask) m = ~0u;
     }
 
     void trace(std::span<const SampleId> ids, std::span<Vec3f> radiance, std::span<std::uint64_t> hashes) noexcept override {
-        radiance_ = radiance;
-        hashes_ = hashes;
-        for (Vec3f& l : radiance_) l = Vec3f(0.0f);
-        for (std::uint64_t& h : hashes_) h = 0;
+        sums_ = {radiance, hashes};
+        sums_.clear();
         numbers_.begin_batch();
         if (numbers_.timed()) stats_.timed_paths += ids.size();
         if (settings_.max_depth == 0) return;
@@ -61,11 +63,11 @@ public:
             last_vertex_ = settings_.max_depth >= 0 && depth_ + 1 >= settings_.max_depth;
             if (!last_vertex_) numbers_.fill_bounce(static_cast<std::size_t>(depth_), {paths_->id, alive_});
             const std::size_t count = alive_;
-            alive_ = waiting_ = 0;
+            alive_ = 0;
             sorted_ = depth_ > 0 && order_.pays();  // never by the number of rays: Embree answers by flag
             if (sorted_) trace_in_order(count);
             for (std::size_t at = 0; at < count; at += kGroup) bounce_group(at, count);
-            trace_shadow_rays();
+            stats_.rays.shadow += shadows_.trace(sorted_ ? &order_ : nullptr, sums_);
         }
     }
 
@@ -75,32 +77,49 @@ private:
         detail::PathQueue& q = *paths_;
         numbers_.fill_camera(ids);
         for (std::size_t at = 0; at < ids.size(); at += kPack) {
-            const Vec2<Float> u = numbers_.film(at);
-            NumberLanes x(u.x), y(u.y);
-            for (std::size_t i = 0; i < kPack && at + i < ids.size(); ++i) {
-                const SampleId& id = ids[at + i];
-                const Vec2f film = film_point(scene_.camera, id.pixel.x, id.pixel.y, {x.x[i], y.x[i]});
-                x.x[i] = film.x;
-                y.x[i] = film.y;
-                q.id[at + i] = id;
-            }
+            const Vec2<Float> film = film_points(ids.subspan(at), numbers_.film(at));
+            for (std::size_t i = at; i < at + kPack && i < ids.size(); ++i) q.id[i] = ids[i];
             Vec2<Float> u_lens{};
             if constexpr (kEffects.has(Effect::lens)) u_lens = numbers_.lens(at);
-            const CameraRayOf<Float> ray = camera_ray(scene_.camera, Vec2<Float>{x.pack(), y.pack()}, u_lens);
+            const CameraRayOf<Float> ray = camera_ray(scene_.camera, film, u_lens);
             store(ray.o, q.o, at);
             store(ray.d, q.d, at);
             ray.t_near.store(q.t_near + at);
             ray.t_far.store(q.t_far + at);
             store(Vec3<Float>(Float(1.0f)), q.beta, at);
             if constexpr (kMotion) numbers_.time(at).store(q.time + at);
-            Float(1.0f).store(q.eta_scale + at);
+            if constexpr (kEffects.has(Effect::dielectric)) Float(1.0f).store(q.eta_scale + at);
             Float(0.0f).store(q.pdf + at);
             Int32(-1).store(q.delta + at);
-            Int32(0).store(q.lossless + at);
-            store(Vec3<Float>(Float(0.0f)), q.last_p, at);
-            store(Vec3<Float>{Float(0.0f), Float(0.0f), Float(1.0f)}, q.last_n, at);
+            if constexpr (kEffects.has(Effect::roulette)) Int32(0).store(q.lossless + at);
+            if constexpr (kPosition) store(Vec3<Float>(Float(0.0f)), q.last_p, at);
+            if constexpr (kEffects.has(Effect::many_lights)) store(Vec3<Float>{Float(0.0f), Float(0.0f), Float(1.0f)}, q.last_n, at);
             iota(static_cast<std::int32_t>(at)).store(q.slot + at);
         }
+    }
+
+    /// As koksma::film_point, of the first samples. @param u  anything in lanes without a sample
+    [[nodiscard]] Vec2<Float> film_points(std::span<const SampleId> ids, const Vec2<Float>& u) const {
+        const CompiledCamera& c = scene_.camera;
+        if (c.filter.is_pixel()) {
+            alignas(4 * kLanes) IntLanes x{}, y{};
+            for (std::size_t i = 0; i < kPack && i < ids.size(); ++i) {
+                x[i] = ids[i].pixel.x;
+                y[i] = ids[i].pixel.y;
+            }
+            const auto along = [](Int32 pixel, Float u, double width, double offset, double half) {
+                const Double f = (Double::of(pixel) + Double::of(u)) * Double::of(width) + Double::of(offset);
+                return ((Double::of(1.0) - Double::of(2.0) * f) * Double::of(half)).rounded();
+            };
+            return {along(Int32::load(x), u.x, c.pixel_width, c.offset_x, c.half_width), along(Int32::load(y), u.y, c.pixel_height, c.offset_y, c.half_height)};
+        }
+        NumberLanes x(u.x), y(u.y);
+        for (std::size_t i = 0; i < kPack && i < ids.size(); ++i) {
+            const Vec2f film = film_point(c, ids[i].pixel.x, ids[i].pixel.y, {x.x[i], y.x[i]});
+            x.x[i] = film.x;
+            y.x[i] = film.y;
+        }
+        return {x.pack(), y.pack()};
     }
 
     /// A few packs of paths, in steps.
@@ -115,7 +134,7 @@ private:
                 prefetch_vertices<kEffects>(scene_, active & (geometry != Int32(-1)), geometry, Int32::load(primitive_ + at));
             });
         each([&](std::size_t at, Mask active) { bounce(at, active); });
-        if constexpr (kEffects.has(Effect::environment)) add_environment();
+        if constexpr (kEffects.has(Effect::environment)) escaped_.add(sums_);
     }
 
     /// What the rays of a pack meet.
@@ -153,7 +172,7 @@ private:
             if (!sorted_) instance = Int32::load(instance_ + at);  // scenes that are sorted have none
         if constexpr (kMotion) time = Float::load(q.time + at);
         stats_.rays.closest += static_cast<std::uint64_t>(count(active));
-        if (!hashes_.empty()) hash_hits(active, geometry, primitive, instance);
+        if (!sums_.hashes.empty()) hash_hits(active, geometry, primitive, instance);
         const Mask hit = active & (geometry != Int32(-1));
         if constexpr (kEffects.has(Effect::environment))
             if (const Mask escaped = active & !hit; any(escaped)) queue_escaped(at, escaped, d, beta);
@@ -212,7 +231,7 @@ private:
         compress_store(wi, alive, q.d, to);
         compress_store(beta, alive, q.beta, to);
         next.pdf_w.compress_store(alive, q.pdf + to);
-        if constexpr (kEffects.has(Effect::area_light) || kEffects.has(Effect::many_lights)) compress_store(surface.p, alive, q.last_p, to);
+        if constexpr (kPosition) compress_store(surface.p, alive, q.last_p, to);
         if constexpr (kEffects.has(Effect::many_lights)) compress_store(lit_normal_pack<kEffects>(local, wo_local), alive, q.last_n, to);
         if constexpr (kMotion) time.compress_store(alive, q.time + to);
         if constexpr (kEffects.has(Effect::dielectric)) eta_scale.compress_store(alive, q.eta_scale + to);
@@ -264,7 +283,7 @@ private:
     /// Finds what the rays of the queue meet, neighbours in direction and place together.
     void trace_in_order(std::size_t count) {
         const detail::PathQueue& q = *paths_;
-        const std::size_t good = order_.sort(q, count);
+        const std::size_t good = order_.sort(q.o, q.d, count);
         for (std::size_t at = 0; at < good; at += kPack) {
             const Mask active = Mask::first(good - at);
             const Int32 place = order_.place(at);
@@ -287,8 +306,8 @@ private:
         instance.store(through);
         for_lanes(active, [&](int i) {
             const auto met = static_cast<std::uint32_t>(g[i]), which = met == Hit::kNone ? Hit::kNone : static_cast<std::uint32_t>(p[i]);
-            hash(i, (std::uint64_t{met} << 32) | which);
-            if (kInstancing && through[i] != -1) hash(i, static_cast<std::uint32_t>(through[i]));
+            sums_.hash(slots_[i], (std::uint64_t{met} << 32) | which);
+            if (kInstancing && through[i] != -1) sums_.hash(slots_[i], static_cast<std::uint32_t>(through[i]));
         });
     }
 
@@ -304,54 +323,9 @@ private:
         } else {
             probability = Float(light_probability(at, environment_light(), kWholeLight));
         }
-        detail::EscapeQueue& q = *escaped_;
-        compress_store(d, escaped, q.d, escapes_);
-        compress_store(beta, escaped, q.beta, escapes_);
-        select(delta, Float(-1.0f), Float::load(paths_->pdf + at)).compress_store(escaped, q.pdf + escapes_);
-        probability.compress_store(escaped, q.probability + escapes_);
-        escapes_ += Int32::load(slots_).compress_store(escaped, q.slot + escapes_);
+        escaped_.queue(escaped, d, beta, delta, Float::load(paths_->pdf + at), probability, Int32::load(slots_));
     }
 
-    /// What the escaped rays of a group bring: first all places in the map, so that it is there when it is read.
-    void add_environment() {
-        detail::EscapeQueue& q = *escaped_;
-        const bool mapped = scene_.environment_map.has_value();
-        const EnvironmentTable table = mapped ? scene_.environment_map->table() : EnvironmentTable{};
-        if (mapped)
-            for (std::size_t at = 0; at < escapes_; at += kPack) {
-                const EnvironmentPlaceOf<Float> place = environment_place(table, load(q.d, at));
-                place.x.store(q.d.x + at);
-                place.y.store(q.d.y + at);
-                place.column.store(q.column + at);
-                place.row.store(q.row + at);
-                const Mask active = Mask::first(escapes_ - at);
-                const Int32 cell = place.row * Int32(table.width + 1) + place.column;
-                prefetch(table.texels, active, cell);
-                prefetch(table.texels + table.width + 1, active, cell);
-                prefetch(table.begin, active & !(Float::load(q.pdf + at) < Float(0.0f)), cell);
-            }
-        for (std::size_t at = 0; at < escapes_; at += kPack) {
-            const Mask active = Mask::first(escapes_ - at);
-            const Float pdf = Float::load(q.pdf + at);
-            const Mask delta = pdf < Float(0.0f);
-            Vec3<Float> radiance;
-            Float pdf_light(0.25f * kInvPi);
-            if (mapped) {
-                // Lanes beyond the last hold old places or zeros: the map has them.
-                const EnvironmentPlaceOf<Float> place{Int32::load(q.column + at), Int32::load(q.row + at), Float::load(q.d.x + at),
-                                                      Float::load(q.d.y + at)};
-                radiance = environment_radiance(table, place);
-                if (any(active & !delta)) pdf_light = environment_density(table, place);
-            } else {
-                radiance = Vec3<Float>::splat(scene_.lights[environment_light()].radiance.constant);
-            }
-            const Float weight = select(delta, Float(1.0f), power_heuristic(pdf, pdf_light * Float::load(q.probability + at)));
-            const VectorLanes contribution(load(q.beta, at) * radiance * weight);
-            Int32::load(q.slot + at).store(slots_);
-            for_lanes(active, [&](int i) { this->radiance(i) += contribution[i]; });
-        }
-        escapes_ = 0;
-    }
     [[nodiscard]] std::uint32_t environment_light() const { return static_cast<std::uint32_t>(scene_.environment_light); }
 
     void add_emission(std::size_t at, Mask shines, const SurfacePack& s, Int32 primitive, const Vec3<Float>& d, const Vec3<Float>& beta) {
@@ -377,7 +351,7 @@ private:
                     light_pdf<kEffects>(scene_, scene_.lights[index], vector(paths_->last_p, path), surface, wi, triangle) *
                         light_probability(path, index, triangle));
             }
-            radiance(i) += betas[i] * le * weight;
+            sums_.add(slots_[i], betas[i] * le * weight);
         });
     }
 
@@ -406,43 +380,8 @@ private:
             alive = alive & !odd;
             lit = lit & !odd;
         }
-        detail::ShadowQueue& q = *shadows_;
-        compress_store(o, lit, q.o, waiting_);
-        compress_store(d, lit, q.d, waiting_);
-        compress_store(contribution, lit, q.contribution, waiting_);
-        if constexpr (kMotion) time.compress_store(lit, q.time + waiting_);
-        select(light.at_infinity, Float(kInfinity), Float(1.0f)).compress_store(lit, q.t_far + waiting_);
-        waiting_ += Int32::load(slots_).compress_store(lit, q.slot + waiting_);
+        shadows_.queue(lit, o, d, select(light.at_infinity, Float(kInfinity), Float(1.0f)), time, contribution, Int32::load(slots_));
         return alive;
-    }
-
-    void trace_shadow_rays() {
-        const detail::ShadowQueue& q = *shadows_;
-        stats_.rays.shadow += waiting_;
-        for (std::size_t at = 0; at < waiting_; at += kPack) {
-            const Mask active = Mask::first(waiting_ - at);
-            Float::load(q.o.x + at).store(packet_.o_x);
-            Float::load(q.o.y + at).store(packet_.o_y);
-            Float::load(q.o.z + at).store(packet_.o_z);
-            Float::load(q.d.x + at).store(packet_.d_x);
-            Float::load(q.d.y + at).store(packet_.d_y);
-            Float::load(q.d.z + at).store(packet_.d_z);
-            Float(0.0f).store(packet_.t_near);
-            if constexpr (kMotion) Float::load(q.time + at).store(packet_.time);
-            Float::load(q.t_far + at).store(packet_.t_far);
-            select(active, Int32(-1), Int32(0)).store(valid_);
-            scene_.accelerator.occluded(packet_, valid_, Coherence::incoherent);  // also from camera hits: 0.63 to 0.99 of the time
-            Int32::load(q.slot + at).store(slots_);
-            const Mask visible = active & !(Float::load(packet_.t_far) < Float(0.0f));
-            for_lanes(visible, [&](int i) {
-                const std::size_t ray = at + static_cast<std::size_t>(i);
-                radiance(i) += Vec3f{q.contribution.x[ray], q.contribution.y[ray], q.contribution.z[ray]};
-            });
-            if (!hashes_.empty()) {
-                const std::uint32_t seen = lane_bits(visible);
-                for_lanes(active, [&](int i) { hash(i, (seen >> i) & 1u); });
-            }
-        }
     }
 
     /// @return  the lanes that survive; beta is divided by their chance
@@ -465,8 +404,7 @@ private:
         return good;
     }
     void invalidate(Mask lanes) {
-        constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-        for_lanes(lanes, [&](int i) { radiance(i) = {kNan, kNan, kNan}; });
+        for_lanes(lanes, [&](int i) { sums_.spoil(slots_[i]); });
     }
     [[nodiscard]] static Vec3f vector(const detail::VectorRows& rows, std::size_t at) { return {rows.x[at], rows.y[at], rows.z[at]}; }
     /// Of a light that a path met without looking for it.
@@ -475,26 +413,20 @@ private:
             return choice_probability<kEffects>(scene_, light, triangle, vector(paths_->last_p, path), vector(paths_->last_n, path));
         return choice_probability<kEffects>(scene_, light, triangle, Vec3f{}, Vec3f{});
     }
-    [[nodiscard]] Vec3f& radiance(int lane) { return radiance_[static_cast<std::size_t>(slots_[lane])]; }
-    void hash(int lane, std::uint64_t what) {
-        std::uint64_t& h = hashes_[static_cast<std::size_t>(slots_[lane])];
-        h = path_hash(h, what);
-    }
 
     const Scene& scene_;
     const IntegratorSettings& settings_;
     BatchNumbers numbers_;
     const SingleLight single_light_;
     std::unique_ptr<detail::PathQueue> paths_;
-    std::unique_ptr<detail::ShadowQueue> shadows_;
-    std::unique_ptr<detail::EscapeQueue> escaped_;
+    ShadowRays<kEffects> shadows_;
+    EscapedRays escaped_;
     RayOrder order_;
     RayPacket<kLanes> packet_{};
     alignas(64) detail::IntRow geometry_{}, primitive_{}, instance_{};  // what the rays met
     alignas(4 * kLanes) IntLanes valid_{}, slots_{};
-    std::span<Vec3f> radiance_;
-    std::span<std::uint64_t> hashes_;
-    std::size_t alive_ = 0, waiting_ = 0, escapes_ = 0;
+    PathSums sums_;
+    std::size_t alive_ = 0;
     std::int32_t depth_ = 0;
     bool last_vertex_ = false, sorted_ = false;
 };

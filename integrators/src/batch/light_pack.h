@@ -11,9 +11,9 @@ struct LightSamplePack {
 
 /// A scene's only light, if it is one or two triangles without textures: nothing to gather then.
 struct SingleLight {
-    bool usable = false;
+    bool usable = false, mesh = false;
     std::int32_t word = 0;  ///< of its geometry's record
-    Vec3f vertices[2][3], normals[2][3];
+    Vec3f vertices[2][3], normals[2][3], ng[2];
     explicit SingleLight(const Scene& scene) {
         if (scene.lights.size() != 1) return;
         const Light& light = scene.lights[0];
@@ -26,18 +26,20 @@ struct SingleLight {
                 vertices[t][v] = scene.positions[index];
                 if (g.has_normals) normals[t][v] = scene.normals[index];
             }
+        for (std::size_t t = 0; t < 2; ++t) ng[t] = koksma::normal_of_triangle(vertices[t][0], vertices[t][1], vertices[t][2]);
         word = (g.flip ? 1 << 8 : 0) | (g.has_normals ? 1 << 16 : 0);
+        mesh = light.kind == LightKind::mesh;
         usable = true;
     }
     [[nodiscard]] TrianglePack triangle(Int32 which) const {
         TrianglePack t;
-        t.v0 = of_vertex(vertices, which, 0);
-        t.v1 = of_vertex(vertices, which, 1);
-        t.v2 = of_vertex(vertices, which, 2);
+        t.v0 = of_triangle(which, vertices[0][0], vertices[1][0]);
+        t.v1 = of_triangle(which, vertices[0][1], vertices[1][1]);
+        t.v2 = of_triangle(which, vertices[0][2], vertices[1][2]);
         return t;
     }
-    [[nodiscard]] static Vec3<Float> of_vertex(const Vec3f (&of)[2][3], Int32 which, int vertex) {
-        return select<Float>(which == Int32(1), Vec3<Float>::splat(of[1][vertex]), Vec3<Float>::splat(of[0][vertex]));
+    [[nodiscard]] static Vec3<Float> of_triangle(Int32 which, Vec3f first, Vec3f second) {
+        return select<Float>(which == Int32(1), Vec3<Float>::splat(second), Vec3<Float>::splat(first));
     }
 };
 
@@ -126,7 +128,8 @@ template <EffectSet kEffects>
                                                      Vec2<Float> u) {
     const Int32 light = choice.light;
     const Light* lights = scene.lights.data();
-    const Mask mesh = active & (gather_int(lights, offsetof(Light, kind), light) == Int32(static_cast<int>(LightKind::mesh)));
+    const auto are_meshes = [&] { return gather_int(lights, offsetof(Light, kind), light) == Int32(static_cast<int>(LightKind::mesh)); };
+    const Mask mesh = active & (single.usable ? (single.mesh ? active : Mask{}) : are_meshes());
     // A parallelogram's two triangles (0, 1, 2) and (0, 2, 3) over corners in circular order: the square maps without a seam.
     const Mask lower = u.x >= u.y;
     Int32 triangle = select(lower, Int32(0), Int32(1));
@@ -145,13 +148,15 @@ template <EffectSet kEffects>
     Float area;
     if (single.usable) {
         const Light& only = lights[0];
-        const auto normal = [&](int vertex, Mask) { return SingleLight::of_vertex(single.normals, triangle, vertex); };
-        s = triangle_surface_pack<kEffects>(scene, single.triangle(triangle), Int32(single.word), active, b, normal);
+        const auto normal = [&](int vertex, Mask) { return SingleLight::of_triangle(triangle, single.normals[0][vertex], single.normals[1][vertex]); };
+        const Vec3<Float> ng = SingleLight::of_triangle(triangle, single.ng[0], single.ng[1]);
+        triangle_surface_pack<kEffects>(scene, single.triangle(triangle), Int32(single.word), active, b, ng, normal, s);
         area = Float(only.area);
     } else {
         const Int32 geometry = gather_int(lights, offsetof(Light, geometry), light);
         const TrianglePack t = gather_triangle(scene, gather_int(records, offsetof(GeometryRecord, first), geometry) + triangle);
-        s = triangle_surface_pack<kEffects>(scene, t, gather_int(records, 0, geometry), active, b, GatheredNormals{scene, t});
+        triangle_surface_pack<kEffects>(scene, t, gather_int(records, 0, geometry), active, b, normal_of_triangle_pack(t, active),
+                                        GatheredNormals{scene, t}, s);
         area = gather_float(lights, offsetof(Light, area), light);
         if constexpr (kEffects.has(Effect::many_lights)) area = area_of_triangles(scene, active, choice, area);
     }
@@ -224,10 +229,11 @@ template <EffectSet kEffects>
                                                 Vec2<Float> u) {
     const Int32 light = choice.light;
     const auto is_kind = [&](LightKind k) { return gather_int(scene.lights.data(), offsetof(Light, kind), light) == Int32(static_cast<int>(k)); };
+    if constexpr (kEffects.has(Effect::area_light))
+        if (single.usable) return sample_triangle_lights<kEffects>(scene, single, active, choice, p, u);
     LightSamplePack out{};
     Mask others = active;
-    if constexpr (kEffects.has(Effect::area_light)) {
-        if (single.usable) return sample_triangle_lights<kEffects>(scene, single, active, choice, p, u);
+    if constexpr (kEffects.has(Effect::area_light))
         if (const Mask triangles = active & (is_kind(LightKind::mesh) | is_kind(LightKind::parallelogram)); any(triangles)) {
             // The other lanes compute with the first of these lights: what they gather must be there.
             LightChoicePack readable = choice;
@@ -236,7 +242,6 @@ template <EffectSet kEffects>
             out = sample_triangle_lights<kEffects>(scene, single, triangles, readable, p, u);
             others = others & !triangles;
         }
-    }
     if constexpr (kEffects.has(Effect::environment))
         if (const Mask sky = others & is_kind(LightKind::environment); any(sky)) {
             sample_environment(scene, sky, u, out);

@@ -33,9 +33,9 @@ public:
     [[nodiscard]] bool pays() const { return usable_; }
 
     /// Orders the rays of a queue that Embree may see. @return  how many those are
-    std::size_t sort(const detail::PathQueue& q, std::size_t count) {
+    std::size_t sort(const detail::VectorRows& o, const detail::VectorRows& d, std::size_t count) {
         std::uint32_t begin[kBuckets + 1] = {};
-        for (std::size_t at = 0; at < count; at += kLanes) bucket(load(q.o, at), load(q.d, at)).store(&bucket_[at]);
+        for (std::size_t at = 0; at < count; at += kLanes) bucket(load(o, at), load(d, at)).store(&bucket_[at]);
         for (std::size_t i = 0; i < count; ++i) ++begin[bucket_[i]];
         std::uint32_t sum = 0;
         for (std::uint32_t& b : begin) {

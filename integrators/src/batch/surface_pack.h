@@ -112,9 +112,13 @@ void prefetch_vertices(const Scene& scene, Mask hit, Int32 geometry, Int32 primi
     }
 }
 
-inline Vec3<Float> normals_of_needles(const TrianglePack& t, Mask needle, const Vec3<Float>& otherwise) {
+/// As koksma::normal_of_triangle.
+[[nodiscard]] inline Vec3<Float> normal_of_triangle_pack(const TrianglePack& t, Mask active) {
+    const Vec3<Float> regular = triangle_normal(t.v0, t.v1, t.v2);
+    const Mask needle = active & is_needle(t.v0, t.v1, t.v2);
+    if (!any(needle)) return regular;
     const VectorLanes v0(t.v0), v1(t.v1), v2(t.v2);
-    VectorLanes n(otherwise);
+    VectorLanes n(regular);
     for_lanes(needle, [&](int i) { n.set(i, normal_of_needle(v0[i], v1[i], v2[i], n[i])); });
     return n.pack();
 }
@@ -127,15 +131,16 @@ struct GatheredNormals {
 };
 
 /// @param word    first word of the geometries' records
+/// @param ng      the triangles' normals
 /// @param normal  called with a vertex, 0 to 2, and the lanes that have normals
+/// @param s       gets all but what its geometry says
 template <EffectSet kEffects, class Normal>
-[[nodiscard]] SurfacePack triangle_surface_pack(const Scene& scene, const TrianglePack& t, Int32 word, Mask active, Vec2<Float> b, const Normal& normal) {
+void triangle_surface_pack(const Scene& scene, const TrianglePack& t, Int32 word, Mask active, Vec2<Float> b, const Vec3<Float>& ng,
+                           const Normal& normal, SurfacePack& s) {
     const TrianglePointOf<Float> point = triangle_point(t.v0, t.v1, t.v2, b);
-    SurfacePack s;
     s.p = point.p;
     s.p_error = point.p_error;
-    s.ng = s.n = point.ng;
-    if (const Mask needle = active & is_needle(t.v0, t.v1, t.v2); any(needle)) s.ng = s.n = normals_of_needles(t, needle, point.ng);
+    s.ng = s.n = ng;
     if constexpr (kEffects.has(Effect::shading_normals))
         if (const Mask m = active & flag<2>(word); any(m))
             assign<Float>(m, s.n, interpolated_normal(normal(0, m), normal(1, m), normal(2, m), point.b0, b, s.ng));
@@ -162,7 +167,6 @@ template <EffectSet kEffects, class Normal>
         s.uv.triangle = t.which;
         s.uv.barycentrics = b;
     }
-    return s;
 }
 
 /// Puts a point that was computed alone into its lane.
@@ -219,7 +223,8 @@ template <EffectSet kEffects>
     if (!kAlone || any(meshes)) {
         const Int32 triangle = select(meshes, gather_int(records, offsetof(GeometryRecord, first), g) + primitive, Int32(0));
         const TrianglePack t = gather_triangle(scene, triangle);
-        s = triangle_surface_pack<kEffects>(scene, t, word, meshes, barycentrics(t.v0, t.v1, t.v2, o, d), GatheredNormals{scene, t});
+        triangle_surface_pack<kEffects>(scene, t, word, meshes, barycentrics(t.v0, t.v1, t.v2, o, d), normal_of_triangle_pack(t, meshes),
+                                        GatheredNormals{scene, t}, s);
         if (const Mask coarse = meshes & (is_coarse(s.p, s.p_error, o) | is_needle(t.v0, t.v1, t.v2)); any(coarse))
             refine(t, o, d, coarse, s);
     }

@@ -80,6 +80,12 @@ struct RefinedPoint {
     return len2 > 0.0 ? to_float(n * (1.0 / std::sqrt(len2))) : otherwise;
 }
 
+/// The geometric normal of a triangle, before it may be turned.
+[[nodiscard]] inline Vec3f normal_of_triangle(Vec3f v0, Vec3f v1, Vec3f v2) noexcept {
+    const Vec3f n = triangle_normal(v0, v1, v2);
+    return is_needle(v0, v1, v2) ? normal_of_needle(v0, v1, v2, n) : n;
+}
+
 /// A point of a triangle by the barycentrics of its second and third vertex.
 template <EffectSet kEffects>
 [[nodiscard]] Surface triangle_surface(const Scene& scene, std::uint32_t geometry, std::uint32_t triangle, Vec2f b) noexcept {
@@ -92,7 +98,7 @@ template <EffectSet kEffects>
     s.primitive = triangle - g.first;
     s.p = point.p;
     s.p_error = point.p_error;
-    s.ng = s.n = is_needle(v0, v1, v2) ? normal_of_needle(v0, v1, v2, point.ng) : point.ng;
+    s.ng = s.n = normal_of_triangle(v0, v1, v2);
     if constexpr (kEffects.has(Effect::shading_normals))
         if (g.has_normals) s.n = interpolated_normal(scene.normals[index[0]], scene.normals[index[1]], scene.normals[index[2]], point.b0, b, s.ng);
     if (g.flip) {

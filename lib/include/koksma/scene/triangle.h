@@ -34,7 +34,6 @@ template <class Real>
 template <class Real>
 struct TrianglePointOf {
     Vec3<Real> p, p_error;  ///< a convex combination of the vertices; bound of the absolute error of each coordinate
-    Vec3<Real> ng;          ///< unit, to the side from which the vertices turn counter-clockwise
     Real b0;                ///< barycentric of the first vertex
 };
 
@@ -44,6 +43,12 @@ template <class Real>
     const Real rest = Real(1.0f) - b.x - b.y;
     const Real b0 = select(rest > Real(0.0f), rest, Real(0.0f));
     const Vec3<Real> t0 = v0 * b0, t1 = v1 * b.x, t2 = v2 * b.y;
+    return {t0 + t1 + t2, (abs(t0) + abs(t1) + abs(t2)) * Real(error_gamma(7)), b0};
+}
+
+/// @return  unit, to the side from which the vertices turn counter-clockwise; +z where they are in line
+template <class Real>
+[[nodiscard]] Vec3<Real> triangle_normal(Vec3<Real> v0, Vec3<Real> v1, Vec3<Real> v2) noexcept {
     const Vec3<Real> e1 = v1 - v0, e2 = v2 - v0;
     // Scaled before squaring: the product of two tiny edges would underflow.
     const Real scale = Real(1.0f) / max_component(Vec3<Real>{max_component(abs(e1)), max_component(abs(e2)), Real(1e-30f)});
@@ -51,8 +56,7 @@ template <class Real>
     const Real len2 = dot(n, n);
     const auto regular = len2 > Real(0.0f);
     const Vec3<Real> unit = n * (Real(1.0f) / sqrt(select(regular, len2, Real(1.0f))));
-    return {t0 + t1 + t2, (abs(t0) + abs(t1) + abs(t2)) * Real(error_gamma(7)),
-            select<Real>(regular, unit, Vec3<Real>{Real(0.0f), Real(0.0f), Real(1.0f)}), b0};
+    return select<Real>(regular, unit, Vec3<Real>{Real(0.0f), Real(0.0f), Real(1.0f)});
 }
 
 /// True where the sine of the angle at the first vertex is below 1/16: edges nearly cancel in the normal, and volumes in the barycentrics,
