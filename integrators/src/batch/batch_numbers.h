@@ -28,6 +28,8 @@ public:
         if (slots_ != nullptr) fill(ids, plan_.layout.bounce(bounce));
     }
 
+    /// True where the bounce has slots: asking for a number does not draw it then.
+    [[nodiscard]] bool are_laid_out() const { return slots_ != nullptr; }
     [[nodiscard]] Vec2<Float> film(std::size_t at) const { return {row(0, at), row(1, at)}; }
     [[nodiscard]] Vec2<Float> lens(std::size_t at) const {
         if (plan_.lens < 0) return {};  // a kernel with a lens, a scene without

@@ -23,6 +23,7 @@ KOKSMA_MATHS_END
 #include "path_sums.h"
 #include "shadow_rays.h"
 #include "escaped_rays.h"
+#include "sky_samples.h"
 
 KOKSMA_MATHS_BEGIN
 
@@ -47,6 +48,7 @@ public:
           paths_(std::make_unique<detail::PathQueue>()),
           shadows_(job.scene),
           escaped_(job.scene),
+          sky_(job.scene),
           order_(job.scene) {
         for (std::uint32_t& m : packet_.mask) m = ~0u;
     }
@@ -133,6 +135,18 @@ private:
                 const Int32 geometry = Int32::load(geometry_ + at);
                 prefetch_vertices<kEffects>(scene_, active & (geometry != Int32(-1)), geometry, Int32::load(primitive_ + at));
             });
+        if constexpr (kEffects.has(Effect::environment) && kSmooth) {
+            sky_drawn_ = sky_.usable() && !last_vertex_ && numbers_.are_laid_out();
+            if (sky_drawn_) {
+                each([&](std::size_t at, Mask active) {
+                    const Int32 geometry = Int32::load(geometry_ + at);
+                    sky_.want(at - first, active & (geometry != Int32(-1)), geometry,
+                              numbers_.get_2d(at, active, SlotRole::light_position, &BounceSlots::light_position));
+                });
+                sky_.draw();
+            }
+        }
+        group_ = first;
         each([&](std::size_t at, Mask active) { bounce(at, active); });
         if constexpr (kEffects.has(Effect::environment)) escaped_.add(sums_);
     }
@@ -355,16 +369,22 @@ private:
         });
     }
 
-    /// Queues the shadow rays of a pack. @return  the lanes of `alive` that stay valid
-    Mask direct_light(std::size_t at, Mask alive, Mask smooth, const SurfacePack& s, const LocalBsdfPack& local,
-                      const Vec3<Float>& wo_local, const Vec3<Float>& beta, Float time) {
-        LightChoicePack choice = LightChoicePack::only();
+    /// @param choice  gets the light
+    [[nodiscard]] LightSamplePack sample_light(std::size_t at, Mask smooth, const SurfacePack& s, const LocalBsdfPack& local, const Vec3<Float>& wo_local,
+                                               LightChoicePack& choice) {
         if constexpr (kEffects.has(Effect::light_choice))
             choice = choose_light_pack<kEffects>(scene_, smooth, s.p, lit_normal_pack<kEffects>(local, wo_local),
                                                  numbers_.get_1d(at, smooth, SlotRole::light_choice, &BounceSlots::light_choice));
         Vec2<Float> u_light{};
         if constexpr (kExtendedLights) u_light = numbers_.get_2d(at, smooth, SlotRole::light_position, &BounceSlots::light_position);
-        const LightSamplePack light = sample_light_pack<kEffects>(scene_, single_light_, smooth, choice, s.p, u_light);
+        return sample_light_pack<kEffects>(scene_, single_light_, smooth, choice, s.p, u_light);
+    }
+
+    /// Queues the shadow rays of a pack. @return  the lanes of `alive` that stay valid
+    Mask direct_light(std::size_t at, Mask alive, Mask smooth, const SurfacePack& s, const LocalBsdfPack& local,
+                      const Vec3<Float>& wo_local, const Vec3<Float>& beta, Float time) {
+        LightChoicePack choice = LightChoicePack::only();
+        const LightSamplePack light = sky_drawn_ ? sky_.get(at - group_) : sample_light(at, smooth, s, local, wo_local, choice);
         Mask lit = smooth & (light.pdf_w > Float(0.0f)) & (choice.probability > Float(0.0f));
         if (!any(lit)) return alive;
         const BsdfValueOf<Float> value = eval_pack<kEffects>(scene_, local, lit, wo_local, local.frame.to_local(light.wi));
@@ -421,6 +441,7 @@ private:
     std::unique_ptr<detail::PathQueue> paths_;
     ShadowRays<kEffects> shadows_;
     EscapedRays escaped_;
+    SkySamples<kEffects, kGroup> sky_;
     RayOrder order_;
     RayPacket<kLanes> packet_{};
     alignas(64) detail::IntRow geometry_{}, primitive_{}, instance_{};  // what the rays met
@@ -428,7 +449,8 @@ private:
     PathSums sums_;
     std::size_t alive_ = 0;
     std::int32_t depth_ = 0;
-    bool last_vertex_ = false, sorted_ = false;
+    std::size_t group_ = 0;  ///< where the group begins that is being shaded
+    bool last_vertex_ = false, sorted_ = false, sky_drawn_ = false;
 };
 
 template <EffectSet kEffects>

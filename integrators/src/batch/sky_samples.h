@@ -1,0 +1,106 @@
+// Light samples of an environment map that is a scene's only light. They depend on no point, so a group's are drawn before its first
+// pack is shaded, in full packs of those paths that will ask: the map's tables, which tracing has driven out of the cache, are waited
+// for once and not in the midst of every pack.
+
+KOKSMA_MATHS_BEGIN
+
+/// @tparam kGroup  most paths at a time
+template <EffectSet kEffects, std::size_t kGroup>
+class SkySamples {
+    static constexpr std::size_t kPack = static_cast<std::size_t>(kLanes);
+
+public:
+    explicit SkySamples(const Scene& scene) : scene_(scene) {
+        usable_ = kEffects.has(Effect::environment) && scene.lights.size() == 1 && scene.light_tree.empty() && scene.environment_map &&
+                  !scene.environment_map->is_black();
+        if (!usable_) return;
+        const auto smooth = [&](std::uint32_t side) {
+            koksma::BsdfOf<float> b;
+            b.kind = scene.sides[side].kind;
+            return koksma::has_smooth_lobe(b);
+        };
+        for (const GeometryRecord& g : scene.geometries) {
+            const MaterialSides& m = scene.materials[g.material];
+            asks_.push_back(smooth(m.front) || (m.two_sided && smooth(m.back)) ? 1 : 0);
+        }
+    }
+    [[nodiscard]] bool usable() const { return usable_; }
+
+    /// @param at        place in the group of the pack's first path
+    /// @param geometry  that the paths met
+    /// @param u         the slot of the light's position
+    void want(std::size_t at, Mask hit, Int32 geometry, const Vec2<Float>& u) {
+        const Mask asks = hit & (gather(asks_.data(), select(hit, geometry, Int32(0))) != Int32(0));
+        u.x.compress_store(asks, x_ + count_);
+        u.y.compress_store(asks, y_ + count_);
+        count_ += (iota(static_cast<std::int32_t>(at))).compress_store(asks, path_ + count_);
+    }
+
+    /// Draws all that are wanted: first all places in the map, so that it is there when it is read.
+    void draw() {
+        const EnvironmentTable table = scene_.environment_map->table();
+        const EnvironmentCells cells = scene_.environment_map->cells();
+        for (std::size_t at = 0; at < count_; at += kPack) {
+            // Lanes beyond the last hold old numbers or zeros: any will do.
+            const Vec3<Float> wi = environment_direction(cells, Vec2<Float>{Float::load(x_ + at), Float::load(y_ + at)});
+            const EnvironmentPlaceOf<Float> place = environment_place(table, wi);
+            wi.x.store(direction_.x + at);
+            wi.y.store(direction_.y + at);
+            wi.z.store(direction_.z + at);
+            place.x.store(x_ + at);
+            place.y.store(y_ + at);
+            place.column.store(column_ + at);
+            place.row.store(cell_row_ + at);
+            const Mask active = Mask::first(count_ - at);
+            const Int32 cell = place.row * Int32(table.width + 1) + place.column;
+            prefetch(table.texels, active, cell);
+            prefetch(table.texels + table.width + 1, active, cell);
+            prefetch(table.begin, active, cell);
+        }
+        for (std::size_t at = 0; at < count_; at += kPack) {
+            const EnvironmentPlaceOf<Float> place{Int32::load(column_ + at), Int32::load(cell_row_ + at), Float::load(x_ + at), Float::load(y_ + at)};
+            const VectorLanes radiance(environment_radiance(table, place));
+            const NumberLanes pdf(environment_density(table, place));
+            for (std::size_t i = 0; i < kPack && at + i < count_; ++i) {
+                const auto path = static_cast<std::size_t>(path_[at + i]);
+                const Vec3f wi{direction_.x[at + i], direction_.y[at + i], direction_.z[at + i]}, l = radiance[static_cast<int>(i)];
+                put(wi_, path, wi);
+                put(radiance_, path, l);
+                pdf_[path] = pdf.x[i];
+            }
+        }
+        count_ = 0;
+    }
+
+    /// Those of a pack. @return  anything in lanes that do not ask
+    [[nodiscard]] LightSamplePack get(std::size_t at) const {
+        const auto pack = [at](const Rows& rows) { return Vec3<Float>{Float::load(rows.x + at), Float::load(rows.y + at), Float::load(rows.z + at)}; };
+        const Vec3<Float> wi = pack(wi_);
+        return {wi, pack(radiance_), wi, Float::load(pdf_ + at), Mask{}, Mask::first(kPack)};
+    }
+
+private:
+    static constexpr std::size_t kRow = kGroup + kPack;
+    struct alignas(64) Rows {
+        float x[kRow], y[kRow], z[kRow];
+    };
+    static void put(Rows& rows, std::size_t at, Vec3f v) {
+        rows.x[at] = v.x;
+        rows.y[at] = v.y;
+        rows.z[at] = v.z;
+    }
+
+    const Scene& scene_;
+    bool usable_ = false;
+    std::vector<std::int32_t> asks_;  ///< by geometry: 1 where a side of its material has a smooth lobe
+    // Those that ask, close together:
+    alignas(64) float x_[kRow]{}, y_[kRow]{};  ///< the numbers, later the place in the cell
+    alignas(64) std::int32_t path_[kRow]{}, column_[kRow]{}, cell_row_[kRow]{};
+    Rows direction_{};
+    std::size_t count_ = 0;
+    // By the path's place in the group:
+    Rows wi_{}, radiance_{};
+    alignas(64) float pdf_[kRow]{};
+};
+
+KOKSMA_MATHS_END
