@@ -7,6 +7,7 @@
 #include <koksma/scene/light_sampling.h>
 
 #include "batch/batch_state.h"
+#include "flatten.h"
 #include "kernel_sets.h"
 
 #include <bit>

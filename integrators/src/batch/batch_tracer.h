@@ -170,7 +170,7 @@ private:
     }
 
     /// One pack of paths: from what its rays met to the next rays.
-    [[gnu::flatten]] void bounce(std::size_t at, Mask active) {
+    KOKSMA_FLATTEN void bounce(std::size_t at, Mask active) {
         detail::PathQueue& q = *paths_;
         const Vec3<Float> o = load(q.o, at), d = load(q.d, at);
         Vec3<Float> beta = load(q.beta, at);

@@ -3,6 +3,7 @@
 
 #include <koksma/integrators/volume_path.h>
 
+#include "../flatten.h"
 #include "../kernel_sets.h"
 
 namespace koksma::detail {
@@ -23,7 +24,7 @@ public:
     explicit ReferenceTracer(const TraceJob& job) : scene_(job.scene), plan_(job.plan), draws_(job.plan, job.source) {}
 
     /// In one piece: points and BSDFs passed through memory cost a tenth of the time.
-    [[gnu::flatten]] void trace(std::span<const SampleId> ids, std::span<Vec3f> radiance, std::span<std::uint64_t> hashes) noexcept override {
+    KOKSMA_FLATTEN void trace(std::span<const SampleId> ids, std::span<Vec3f> radiance, std::span<std::uint64_t> hashes) noexcept override {
         constexpr std::uint64_t kTimedEvery = 16;  // blocks: the fills of one in so many are done again and timed
         const bool timed = block_++ % kTimedEvery == 0;
         draws_.begin(ids, timed);
