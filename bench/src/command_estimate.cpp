@@ -18,7 +18,7 @@ namespace {
 EstimatorSettings settings_of(const EstimateCommand& c) {
     try {
         EstimatorSettings s;
-        s.light = light_strategy_of(c.light);
+        s.light = technique_of(c.light);
         s.direction = direction_strategy_of(c.directions);
         s.number = roulette_number_of(c.number);
         s.branching = c.branching;

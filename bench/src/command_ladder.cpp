@@ -6,6 +6,7 @@
 #include "python.h"
 
 #include <koksma/film/atomic_file.h>
+#include <koksma/integrators/lecture/estimator.h>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -14,14 +15,13 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <string>
 
 namespace koksma {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-const char* name(Technique t) { return t == Technique::light ? "light" : t == Technique::bsdf ? "bsdf" : "mis"; }
 
 /// What a technique shows of a ladder: how far it holds, where it first breaks, how many steps its noise hides.
 struct Verdict {
@@ -53,7 +53,7 @@ Json climb_all(const Ladder& ladder, const Registry& registry, int threads, int&
         for (std::size_t t = 0; t < ladder.techniques.size(); ++t) {
             const LadderResult r = climb(step, ladder.techniques[t], registry, threads);
             const bool holds = r.holds(ladder.tolerance), tells = r.tells(ladder.tolerance);
-            row["techniques"][name(ladder.techniques[t])] = {
+            row["techniques"][std::string(name(ladder.techniques[t]))] = {
                 {"error", r.error}, {"half_width", r.half_width}, {"invalid", r.invalid}, {"holds", holds}, {"tells", tells}};
             Verdict& v = verdicts[t];
             v.hidden += holds && !tells;
@@ -72,7 +72,7 @@ Json climb_all(const Ladder& ladder, const Registry& registry, int threads, int&
                 {"tolerance", ladder.tolerance}, {"verdicts", Json::object()}, {"steps", steps}};
     for (std::size_t t = 0; t < ladder.techniques.size(); ++t) {
         const Verdict& v = verdicts[t];
-        out["verdicts"][name(ladder.techniques[t])] = verdict_json(v);
+        out["verdicts"][std::string(name(ladder.techniques[t]))] = verdict_json(v);
         const std::string hidden =
             v.hidden > 0 ? fmt::format("; noise above ten tolerances at {} of {}", v.hidden, ladder.steps.size()) : "";
         fmt::print("{:<16} {:<6} {}{}\n", ladder.name, name(ladder.techniques[t]),

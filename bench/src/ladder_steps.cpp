@@ -13,7 +13,7 @@ namespace {
 using namespace ladder;
 
 constexpr double kPi64 = std::numbers::pi;
-const std::vector<Technique> kAll{Technique::light, Technique::bsdf, Technique::both};
+const std::vector<Technique> kAll{Technique::light, Technique::bsdf, Technique::mis};
 
 /// Powers of ten from 10^a to 10^b.
 std::vector<double> decades(int a, int b) {
@@ -143,7 +143,7 @@ Ladder grazing() {
              "cosine of incidence",
              "irradiance pi of a floor of albedo 0.5: 0.5 (no BSDF sample meets such a light)",
              1e-5,
-             {Technique::light, Technique::both},
+             {Technique::light, Technique::mis},
              {}};
     for (const double c : decades(0, -12)) {
         SceneDescription scene = floor_seen_from({0.3, 1, 1}, Diffuse{Rgb(0.5f)});
@@ -163,7 +163,7 @@ SceneDescription floor_below_square() {
 }
 
 Ladder sample_count(int most) {
-    Ladder l{"spp", "Samples in one pixel", "samples", "a sky of 0.1, exactly", 1e-9, {Technique::both}, {}};
+    Ladder l{"spp", "Samples in one pixel", "samples", "a sky of 0.1, exactly", 1e-9, {Technique::mis}, {}};
     for (int e = 0; e <= most; e += e < 24 ? 3 : 1) {
         SceneDescription scene = empty_scene(1);
         scene.environment = ConstantEnvironment{Rgb(0.1f), {}};
@@ -179,7 +179,7 @@ Ladder index() {
              "index",
              "form factor of a square lamp: 0.277063...; samplers in turn: sobol, halton, sobol-padded, random, around 2^32 all of them",
              1e-3,
-             {Technique::both},
+             {Technique::mis},
              {}};
     const char* samplers[] = {"sobol:randomize=owen", "halton", "sobol-padded", "random"};
     const auto add = [&](double x, std::uint64_t first, const char* sampler) {

@@ -60,7 +60,7 @@ SceneSetup set_up(const SceneArguments& a, const Registry& registry) {
     if (!a.technique.empty())
         description.integrator.technique = a.technique == "light"  ? Technique::light
                                            : a.technique == "bsdf" ? Technique::bsdf
-                                                                   : Technique::both;
+                                                                   : Technique::mis;
     if (!a.crop.empty()) {
         FilmSettings& film = description.film;
         if (a.crop[0] < 0 || a.crop[1] < 0 || a.crop[2] < 1 || a.crop[3] < 1 || a.crop[0] > film.width - a.crop[2] || a.crop[1] > film.height - a.crop[3])

@@ -54,7 +54,7 @@ TEST_CASE("a replayed path has the radiance that the render added", "[effects]")
     }
 }
 
-TEST_CASE("a larger set of effects has its layout and the same picture; a smaller one is refused", "[effects]") {
+TEST_CASE("a larger set of effects has its layout and the same picture, a smaller one is refused", "[effects]") {
     for (const EffectScene& s : effect_scenes()) {
         Ready ready(s.description);
         INFO(name(s.effect));

@@ -11,7 +11,7 @@ namespace {
 
 /// All three estimates, each against the closed form.
 void check_three_ways(SceneDescription d, std::uint64_t spp, double expected, double tolerance) {
-    for (const Technique t : {Technique::light, Technique::bsdf, Technique::both}) {
+    for (const Technique t : {Technique::light, Technique::bsdf, Technique::mis}) {
         d.integrator.technique = t;
         INFO("technique " << static_cast<int>(t));
         check_mean(measure(d, spp, 8), expected, tolerance);

@@ -25,7 +25,7 @@ struct Estimator {
     }
 };
 
-[[nodiscard]] inline EstimatorSettings with(LightStrategy light, std::string_view end = "throughput", std::uint32_t branching = 1) {
+[[nodiscard]] inline EstimatorSettings with(Technique light, std::string_view end = "throughput", std::uint32_t branching = 1) {
     EstimatorSettings s;
     s.light = light;
     s.branching = branching;

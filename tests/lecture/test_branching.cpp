@@ -14,7 +14,7 @@ TEST_CASE("branching changes no expectation, with random and with Sobol'", "[lec
     for (const char* sampler : {"random", kSobol})
         for (const std::uint32_t branching : {2u, 3u, 8u}) {
             INFO(sampler << ", " << branching);
-            check_mean(measure(Estimator(d, with(LightStrategy::mis, "none", branching)), 64, 16, sampler), expected, 0.01);
+            check_mean(measure(Estimator(d, with(Technique::mis, "none", branching)), 64, 16, sampler), expected, 0.01);
         }
 }
 
@@ -22,7 +22,7 @@ TEST_CASE("a full tree has B^k rays on level k, and weights that add up", "[lect
     const int depth = 4;
     for (const std::uint32_t branching : {1u, 2u, 3u}) {
         const EstimateResult r =
-            Estimator(empty_furnace(0.5f, depth, 4), with(LightStrategy::bsdf, "none", branching)).render("random", 4, 1);
+            Estimator(empty_furnace(0.5f, depth, 4), with(Technique::bsdf, "none", branching)).render("random", 4, 1);
         std::uint64_t rays = 0, level = r.ledger.samples;
         for (int k = 0; k < depth; ++k, level *= branching) rays += level;
         CHECK(r.ledger.rays.closest == rays);
@@ -37,9 +37,9 @@ TEST_CASE("the variance of a bounce falls as one over the branching factor", "[l
     SceneDescription d = floor_scene();
     d.integrator.max_depth = 2;
     d.film.width = d.film.height = 16;
-    const std::vector<float> truth = Estimator(d, with(LightStrategy::mis, "none")).render(kSobol, 1 << 14, 99).film.image();
+    const std::vector<float> truth = Estimator(d, with(Technique::mis, "none")).render(kSobol, 1 << 14, 99).film.image();
     const auto variance = [&](std::uint32_t branching) {
-        const Estimator e(d, with(LightStrategy::bsdf, "none", branching));
+        const Estimator e(d, with(Technique::bsdf, "none", branching));
         std::vector<double> values;
         for (std::uint64_t r = 1; r <= 64; ++r) {
             const std::vector<float> image = e.render("random", 16, r * 100 + branching).film.image();

@@ -15,7 +15,7 @@ TEST_CASE("truncation has the bias of the geometric series, and the ledger says 
         for (const int n : {1, 2, 4, 7}) {
             INFO("albedo " << albedo << ", depth " << n);
             const EstimateResult r =
-                Estimator(empty_furnace(albedo, -1), with(LightStrategy::bsdf, "depth=" + std::to_string(n))).render("random", 16, 1);
+                Estimator(empty_furnace(albedo, -1), with(Technique::bsdf, "depth=" + std::to_string(n))).render("random", 16, 1);
             const double expected = truth * (1.0 - std::pow(double(albedo), n));
             CHECK(std::fabs(r.film.mean().y / expected - 1) < 1e-6);
             const double cut = r.ledger.truncated.weight / double(r.ledger.samples) * double(albedo) * truth;
@@ -23,7 +23,7 @@ TEST_CASE("truncation has the bias of the geometric series, and the ledger says 
         }
         for (const double threshold : {0.9, 0.3, 0.03, 0.001}) {
             INFO("albedo " << albedo << ", threshold " << threshold);
-            const EstimateResult r = Estimator(empty_furnace(albedo, -1), with(LightStrategy::bsdf, fmt::format("threshold={}", threshold)))
+            const EstimateResult r = Estimator(empty_furnace(albedo, -1), with(Technique::bsdf, fmt::format("threshold={}", threshold)))
                                          .render("random", 16, 1);
             const double terms = std::ceil(std::log(threshold) / std::log(double(albedo)));
             CHECK(std::fabs(r.film.mean().y / (truth * (1.0 - std::pow(double(albedo), terms))) - 1) < 1e-5);
@@ -49,7 +49,7 @@ TEST_CASE("roulette has no bias, and the variance of its closed form, which the 
          {Case{"constant=0.6", 0.6}, {"constant=0.5", 0.5}, {"constant=0.8", 0.8}, {"reflectance", 0.6}, {"throughput", 0.6}})
         for (const RouletteNumber number : {RouletteNumber::own, RouletteNumber::rescaled}) {
             INFO(c.end << ", " << name(number) << " number");
-            EstimatorSettings s = with(LightStrategy::bsdf, c.end);
+            EstimatorSettings s = with(Technique::bsdf, c.end);
             s.number = number;
             const Estimator e(empty_furnace(float(albedo), -1, 8), s);
             check_noise(measure(e, 256, 8), truth, 5e-3);

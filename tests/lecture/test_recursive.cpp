@@ -51,7 +51,7 @@ TEST_CASE("light met, sampled or both is the same light, whether directions come
     const std::uint32_t rough = add_material(d, RoughConductor{});
     add_shape(d, SphereShape{}, translated({0.4, 0.35, 0.3}) * scaled(0.35), rough);
     const double expected = measure(Ready(d), 4096, 8).mean;
-    for (const LightStrategy light : {LightStrategy::bsdf, LightStrategy::light, LightStrategy::mis})
+    for (const Technique light : {Technique::bsdf, Technique::light, Technique::mis})
         for (const DirectionStrategy direction : {DirectionStrategy::bsdf, DirectionStrategy::uniform}) {
             INFO(name(light) << ", " << name(direction));
             EstimatorSettings s = with(light);
@@ -61,7 +61,7 @@ TEST_CASE("light met, sampled or both is the same light, whether directions come
 }
 
 TEST_CASE("the terms add up to the picture, and are those of the furnace's series", "[lecture]") {
-    const Estimator e(empty_furnace(0.5f, -1, 8), with(LightStrategy::bsdf, "throughput"));
+    const Estimator e(empty_furnace(0.5f, -1, 8), with(Technique::bsdf, "throughput"));
     const EstimateResult r = e.render("random", 1024, 3, true);
     REQUIRE(r.terms.size() == NeumannSeries::kTerms);
     double sum = 0;
@@ -77,7 +77,7 @@ TEST_CASE("the terms add up to the picture, and are those of the furnace's serie
 TEST_CASE("a recursive render has the same bytes for any number of threads", "[lecture]") {
     SceneDescription d = floor_scene();
     for (const std::uint32_t branching : {1u, 2u}) {
-        const Estimator e(d, with(LightStrategy::mis, "constant=0.7", branching));
+        const Estimator e(d, with(Technique::mis, "constant=0.7", branching));
         const EstimateResult one = e.render(kSobol, 16, 1, true, 1), many = e.render(kSobol, 16, 1, true, 5);
         CHECK(same_bytes(one.film, many.film));
         for (std::size_t k = 0; k < one.terms.size(); ++k) CHECK(same_bytes(one.terms[k], many.terms[k]));
@@ -94,20 +94,20 @@ TEST_CASE("settings that mean nothing are refused", "[lecture]") {
         INFO(message);
         CHECK(contains(message, why));
     };
-    refused(with(LightStrategy::mis, "none"), "never end");
-    refused(with(LightStrategy::mis, "depth=2.5"), "whole number");
-    refused(with(LightStrategy::mis, "constant=0"), "survival in (0, 1]");
-    refused(with(LightStrategy::mis, "threshold=0"), "above 0");
-    refused(with(LightStrategy::mis, "throughput", 2), "no end");
+    refused(with(Technique::mis, "none"), "never end");
+    refused(with(Technique::mis, "depth=2.5"), "whole number");
+    refused(with(Technique::mis, "constant=0"), "survival in (0, 1]");
+    refused(with(Technique::mis, "threshold=0"), "above 0");
+    refused(with(Technique::mis, "throughput", 2), "no end");
     EstimatorSettings s;
     CHECK(contains(refusal([&] { set_end(s, "depth"); }), "expected a value"));
     CHECK(contains(refusal([&] { set_end(s, "throughput=1"); }), "no value"));
     CHECK(contains(refusal([&] { set_end(s, "constant=half"); }), "not a number"));
     CHECK(contains(refusal([&] { set_end(s, "luck"); }), "expected none, depth"));
-    CHECK(contains(refusal([&] { static_cast<void>(light_strategy_of("nee")); }), "bsdf, light, mis"));
+    CHECK(contains(refusal([&] { static_cast<void>(technique_of("nee")); }), "bsdf, light, mis"));
     SceneDescription with_point = floor_scene();
     with_point.point_lights.push_back({{0, 1, 0}, Rgb(1.0f), {}});
-    CHECK(contains(refusal([&] { static_cast<void>(make_plan(compile(with_point), endless, with(LightStrategy::bsdf))); }),
+    CHECK(contains(refusal([&] { static_cast<void>(make_plan(compile(with_point), endless, with(Technique::bsdf))); }),
                    "without extent"));
     const Estimator deep(
         [&] {
@@ -115,6 +115,6 @@ TEST_CASE("settings that mean nothing are refused", "[lecture]") {
             d.integrator.max_depth = 20;
             return d;
         }(),
-        with(LightStrategy::mis, "none", 8));
+        with(Technique::mis, "none", 8));
     CHECK(contains(refusal([&] { static_cast<void>(deep.render(kSobol, 1, 0)); }), "2^32"));
 }

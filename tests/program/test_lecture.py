@@ -54,7 +54,7 @@ class Estimate(ProgramTest):
         self.assertLess(self.succeeds("compare", "a.exr", "b.exr", "--json").json()["rmse"], 1e-5)
 
     def test_refusals(self):
-        for arguments, *parts in ((["--light", "nee"], "light strategy 'nee'", "bsdf, light, mis"), (["--end", "depth"], "expected a value"),
+        for arguments, *parts in ((["--light", "nee"], "technique 'nee'", "mis, light, bsdf"), (["--end", "depth"], "expected a value"),
                                   (["--directions", "x"], "bsdf, uniform"), (["--roulette-number", "x"], "own, rescaled")):
             self.refuses(2, ["estimate", "scene.xml", "-o", "a.exr", *arguments], *parts)
         self.refuses(2, ["estimate", "scene.xml", "-o", "a.exr", "--branching", "2", "-s", "stratified"], "needs a sequence")

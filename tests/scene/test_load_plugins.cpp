@@ -278,7 +278,7 @@ TEST_CASE("integrators are path, direct, volpath, and moment around one of them"
     CHECK(moment.hide_emitters);
     CHECK(load("\"moment\"><integrator type=\"path\"/>").moments == "_arg_0");
     const auto error = [&](const std::string& text) { return files.error_of("<integrator type=" + text + "</integrator>"); };
-    CHECK(load("\"direct\">").technique == Technique::both);
+    CHECK(load("\"direct\">").technique == Technique::mis);
     CHECK(load("\"direct\">" + integer("bsdf_samples", "0")).technique == Technique::light);
     CHECK(load("\"direct\">" + integer("emitter_samples", "0")).technique == Technique::bsdf);
     CHECK_ERROR(error("\"direct\">" + integer("bsdf_samples", "0") + integer("emitter_samples", "0")), "both 0");

@@ -40,7 +40,7 @@ Stage open_scattered(const std::string& file, const SceneParameters& defines) {
     return stage;
 }
 
-EstimatorSettings estimator(LightStrategy light, std::string_view end, std::uint32_t branching) {
+EstimatorSettings estimator(Technique light, std::string_view end, std::uint32_t branching) {
     EstimatorSettings s;
     s.light = light;
     s.branching = branching;

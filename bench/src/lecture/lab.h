@@ -70,7 +70,7 @@ struct Replicates {
 [[nodiscard]] Image mean_image(const std::vector<Image>& images);
 [[nodiscard]] Image sum_of(const std::vector<Image>& images);
 
-[[nodiscard]] EstimatorSettings estimator(LightStrategy light, std::string_view end = "throughput", std::uint32_t branching = 1);
+[[nodiscard]] EstimatorSettings estimator(Technique light, std::string_view end = "throughput", std::uint32_t branching = 1);
 
 inline const std::string kRandom = "random", kSobol = "sobol:randomize=owen";
 

@@ -29,8 +29,8 @@ void bounces(Sheet& sheet) {
     const Lab& lab = sheet.lab();
     const Stage cornell = open("cornell.xml", {{"res", std::to_string(kRes)}});
     const int n = lab.replicates(12);
-    const Replicates random = replicate(lab, cornell, estimator(LightStrategy::mis), kRandom, kSpp, n, true);
-    const Replicates sobol = replicate(lab, cornell, estimator(LightStrategy::mis), kSobol, kSpp, n, true);
+    const Replicates random = replicate(lab, cornell, estimator(Technique::mis), kRandom, kSpp, n, true);
+    const Replicates sobol = replicate(lab, cornell, estimator(Technique::mis), kSobol, kSpp, n, true);
 
     sheet.table(fmt::format("cornell, {} samples a pixel: light by the number of its bounces", kSpp),
                 {"bounces", "mean of the picture's light", "share", "RMSE of this term, random", "RMSE of this term, Sobol'",
@@ -64,7 +64,7 @@ void bounces(Sheet& sheet) {
     // The furnace: every surface shines with 1 and reflects a half, so that term k is 1 / 2^k.
     Stage furnace = open("furnace.xml", {{"res", "16"}});
     furnace.integrator.rr_depth = 0;
-    const Replicates white = replicate(lab, furnace, estimator(LightStrategy::bsdf), kRandom, 64, lab.replicates(16), true);
+    const Replicates white = replicate(lab, furnace, estimator(Technique::bsdf), kRandom, 64, lab.replicates(16), true);
     for (std::size_t k = 0; k <= 6; ++k)
         sheet.check(fmt::format("furnace of albedo 0.5: light scattered {} times", k), means(white.terms[k]),
                     std::pow(0.5, static_cast<double>(k)));
@@ -75,8 +75,8 @@ void parts(Sheet& sheet) {
     const int n = lab.replicates(12);
     for (const char* name : {"cornell", "veach"}) {
         const Stage stage = open(std::string(name) + ".xml", {{"res", std::to_string(kRes)}});
-        const Replicates random = replicate(lab, stage, estimator(LightStrategy::mis), kRandom, kSpp, n, true);
-        const Replicates sobol = replicate(lab, stage, estimator(LightStrategy::mis), kSobol, kSpp, n, true);
+        const Replicates random = replicate(lab, stage, estimator(Technique::mis), kRandom, kSpp, n, true);
+        const Replicates sobol = replicate(lab, stage, estimator(Technique::mis), kSobol, kSpp, n, true);
         sheet.table(fmt::format("{}, {} samples a pixel", name, kSpp),
                     {"part", "mean", "RMSE, random", "RMSE, Sobol'", "MSE gain by Sobol'"});
         struct Part {

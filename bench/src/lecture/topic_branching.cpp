@@ -34,7 +34,7 @@ void branching(Sheet& sheet) {
             std::vector<double> x;
             for (std::uint64_t spp = 1; spp <= 1024; spp *= 4) {
                 if (!curve.empty() && curve.back().rays * 4 > kMostRays) break;
-                const Replicates r = replicate(lab, stage, estimator(LightStrategy::mis, "none", b), sampler, spp, n);
+                const Replicates r = replicate(lab, stage, estimator(Technique::mis, "none", b), sampler, spp, n);
                 curve.push_back({r.rays_per_pixel(), squared_errors(r.images)});
                 const At& at = curve.back();
                 x.push_back(at.rays);
@@ -81,7 +81,7 @@ void branching(Sheet& sheet) {
     const auto variance = [&](std::uint32_t b) {
         std::vector<double> v;
         for (const double e :
-             squared_errors(replicate(lab, one_bounce, estimator(LightStrategy::mis, "none", b), kRandom, 16, many).images))
+             squared_errors(replicate(lab, one_bounce, estimator(Technique::mis, "none", b), kRandom, 16, many).images))
             v.push_back(16 * e);
         return v;
     };

@@ -20,7 +20,7 @@ void furnace_bias(Sheet& sheet, double albedo) {
     const Stage furnace = open("furnace.xml", {{"res", "16"}, {"albedo", fmt::format("{}", albedo)}});
     const double truth = 1 / (1 - albedo);
     const auto bias = [&](const std::string& end, double expected, const char* what) {
-        const Replicates r = replicate(lab, furnace, estimator(LightStrategy::bsdf, end), kRandom, 4, 3);
+        const Replicates r = replicate(lab, furnace, estimator(Technique::bsdf, end), kRandom, 4, 3);
         std::vector<double> relative;
         for (const double m : means(r.images)) relative.push_back(m / truth - 1);
         sheet.check(fmt::format("furnace of albedo {}, {}: relative bias", albedo, end), relative, expected, 1e-4);
@@ -67,7 +67,7 @@ void truncation(Sheet& sheet) {
     // A room, against the same room with roulette and without a limit.
     const Stage cornell = open_scattered("cornell.xml", {{"res", "48"}, {"max_depth", "-1"}});
     const int n = lab.replicates(16);
-    const Replicates whole = replicate(lab, cornell, estimator(LightStrategy::mis), kSobol, 32, n);
+    const Replicates whole = replicate(lab, cornell, estimator(Technique::mis), kSobol, 32, n);
     const std::vector<double> truth = means(whole.images);
     const double light = moments(truth).mean;
     sheet.table("cornell without a limit, 32 samples a pixel; light that was scattered once or more",
@@ -78,7 +78,7 @@ void truncation(Sheet& sheet) {
     Json y[2] = {Json::array(), Json::array()};
     for (const char* end : {"depth=1", "depth=2", "depth=3", "depth=4", "depth=6", "depth=8", "depth=12", "threshold=0.5", "threshold=0.2",
                             "threshold=0.1", "threshold=0.05", "threshold=0.02"}) {
-        const Replicates cut = replicate(lab, cornell, estimator(LightStrategy::mis, end), kSobol, 32, n);
+        const Replicates cut = replicate(lab, cornell, estimator(Technique::mis, end), kSobol, 32, n);
         std::vector<double> missing;
         const std::vector<double> m = means(cut.images);
         for (std::size_t r = 0; r < m.size(); ++r) missing.push_back(100 * (truth[r] - m[r]) / light);  // pairs of independent replicates
@@ -118,7 +118,7 @@ void roulette(Sheet& sheet) {
     for (const Game g :
          {Game{"reflectance", albedo}, {"throughput", albedo}, {"constant=0.5", 0.5}, {"constant=0.8", 0.8}, {"constant=0.9", 0.9}})
         for (const RouletteNumber number : {RouletteNumber::own, RouletteNumber::rescaled}) {
-            EstimatorSettings s = estimator(LightStrategy::bsdf, g.end);
+            EstimatorSettings s = estimator(Technique::bsdf, g.end);
             s.number = number;
             std::vector<double> v[2];
             double ledger = 0;
@@ -190,7 +190,7 @@ void roulette(Sheet& sheet) {
         std::vector<double> e[2][2];
         for (const int rescale : {0, 1})
             for (const int sobol : {0, 1}) {
-                EstimatorSettings s = estimator(LightStrategy::mis, end);
+                EstimatorSettings s = estimator(Technique::mis, end);
                 s.number = rescale == 1 ? RouletteNumber::rescaled : RouletteNumber::own;
                 e[rescale][sobol] =
                     squared_errors(replicate(lab, cornell, s, sobol == 1 ? kSobol : kRandom, 16, lab.replicates(16)).images);
@@ -221,8 +221,8 @@ void absorption(Sheet& sheet) {
                              {"constant=0.7", 0, "constant, 0.7"},
                              {"none", 0, "none, 64 vertices"}}) {
             stage.integrator.rr_depth = g.from;
-            const Replicates random = replicate(lab, stage, estimator(LightStrategy::mis, g.end), kRandom, kSpp, n),
-                             sobol = replicate(lab, stage, estimator(LightStrategy::mis, g.end), kSobol, kSpp, n);
+            const Replicates random = replicate(lab, stage, estimator(Technique::mis, g.end), kRandom, kSpp, n),
+                             sobol = replicate(lab, stage, estimator(Technique::mis, g.end), kSobol, kSpp, n);
             const std::vector<double> a = squared_errors(random.images), b = squared_errors(sobol.images);
             if (baseline.empty()) {
                 baseline = a;

@@ -24,16 +24,16 @@ void direct_light(Sheet& sheet) {
                      "the same at equal rays", "mean, random"});
         std::vector<double> baseline;
         double baseline_rays = 0;
-        for (const LightStrategy light : {LightStrategy::bsdf, LightStrategy::light, LightStrategy::mis}) {
+        for (const Technique light : {Technique::bsdf, Technique::light, Technique::mis}) {
             const Replicates random = replicate(lab, stage, estimator(light), kRandom, kSpp, n),
                              sobol = replicate(lab, stage, estimator(light), kSobol, kSpp, n);
             const std::vector<double> a = squared_errors(random.images), b = squared_errors(sobol.images);
-            if (light == LightStrategy::bsdf) {
+            if (light == Technique::bsdf) {
                 baseline = a;
                 baseline_rays = random.rays_per_sample();
             }
-            const char* label = light == LightStrategy::bsdf    ? "by meeting it"
-                                : light == LightStrategy::light ? "by sampling it"
+            const char* label = light == Technique::bsdf    ? "by meeting it"
+                                : light == Technique::light ? "by sampling it"
                                                                 : "both, weighted (MIS)";
             sheet.row({label, random.rays_per_sample(), root_of(a), root_of(b), gain_of(a, baseline),
                        gain_of(a, baseline, baseline_rays / random.rays_per_sample()), mean_of(means(random.images))});
@@ -53,7 +53,7 @@ void directions(Sheet& sheet) {
     for (const double albedo : {0.5, 0.8}) {
         Stage furnace = open("furnace.xml", {{"res", "32"}, {"max_depth", "2"}, {"albedo", fmt::format("{}", albedo)}});
         for (const DirectionStrategy direction : {DirectionStrategy::bsdf, DirectionStrategy::uniform}) {
-            EstimatorSettings s = estimator(LightStrategy::bsdf, "none");
+            EstimatorSettings s = estimator(Technique::bsdf, "none");
             s.direction = direction;
             const Replicates r = replicate(lab, furnace, s, kRandom, 16, lab.replicates(32));
             sheet.check(fmt::format("furnace of albedo {}, one bounce, directions {}: mean", albedo, name(direction)), means(r.images),
@@ -71,7 +71,7 @@ void directions(Sheet& sheet) {
         fmt::format("{} samples a pixel; light that was scattered once or more", kSpp),
         {"scene", "light is found", "RMSE, uniform", "RMSE, from the BSDF", "MSE gain by the BSDF, random", "the same with Sobol'"});
     for (const char* name : {"cornell", "veach"})
-        for (const LightStrategy light : {LightStrategy::bsdf, LightStrategy::light, LightStrategy::mis}) {
+        for (const Technique light : {Technique::bsdf, Technique::light, Technique::mis}) {
             const Stage stage = open_scattered(std::string(name) + ".xml", {{"res", "64"}});
             std::vector<double> errors[2][2];
             for (const int uniform : {0, 1})
@@ -80,11 +80,11 @@ void directions(Sheet& sheet) {
                     s.direction = uniform == 1 ? DirectionStrategy::uniform : DirectionStrategy::bsdf;
                     const Replicates r = replicate(lab, stage, s, sobol == 1 ? kSobol : kRandom, kSpp, n);
                     errors[uniform][sobol] = squared_errors(r.images);
-                    if (sobol == 0 && light == LightStrategy::bsdf)
+                    if (sobol == 0 && light == Technique::bsdf)
                         sheet.picture(fmt::format("{}: {}", name, uniform == 1 ? "uniform" : "from the BSDF"), r.images.front(), 64, 64,
                                       name == std::string("cornell") ? 1.6f : 0.0f);
                 }
-            const char* label = light == LightStrategy::bsdf ? "by meeting it" : light == LightStrategy::light ? "by sampling it" : "both";
+            const char* label = light == Technique::bsdf ? "by meeting it" : light == Technique::light ? "by sampling it" : "both";
             sheet.row({name, label, root_of(errors[1][0]), root_of(errors[0][0]), gain_of(errors[0][0], errors[1][0]),
                        gain_of(errors[0][1], errors[1][1])});
         }

@@ -12,7 +12,7 @@ namespace koksma {
 
 namespace {
 
-constexpr std::array<std::string_view, 3> kLight{"bsdf", "light", "mis"};
+constexpr std::array<std::string_view, 3> kTechnique{"mis", "light", "bsdf"};
 constexpr std::array<std::string_view, 2> kDirection{"bsdf", "uniform"};
 constexpr std::array<std::string_view, 2> kNumber{"own", "rescaled"};
 constexpr std::array<std::string_view, 6> kEnd{"none", "depth", "threshold", "constant", "reflectance", "throughput"};
@@ -28,7 +28,7 @@ Enum one_of(const std::array<std::string_view, N>& names, std::string_view text,
 
 }  // namespace
 
-std::string_view name(LightStrategy s) noexcept { return kLight[static_cast<std::size_t>(s)]; }
+std::string_view name(Technique s) noexcept { return kTechnique[static_cast<std::size_t>(s)]; }
 std::string_view name(DirectionStrategy s) noexcept { return kDirection[static_cast<std::size_t>(s)]; }
 std::string_view name(RouletteNumber n) noexcept { return kNumber[static_cast<std::size_t>(n)]; }
 
@@ -37,7 +37,7 @@ std::string text_of_end(const EstimatorSettings& s) {
     return takes_value(s.end) ? fmt::format("{}={:g}", end, s.end_value) : std::string(end);
 }
 
-LightStrategy light_strategy_of(std::string_view text) { return one_of<LightStrategy>(kLight, text, "light strategy"); }
+Technique technique_of(std::string_view text) { return one_of<Technique>(kTechnique, text, "technique"); }
 DirectionStrategy direction_strategy_of(std::string_view text) { return one_of<DirectionStrategy>(kDirection, text, "direction strategy"); }
 RouletteNumber roulette_number_of(std::string_view text) { return one_of<RouletteNumber>(kNumber, text, "roulette number"); }
 
@@ -75,8 +75,8 @@ RenderPlan make_plan(const Scene& scene, const IntegratorSettings& integrator, c
     RenderPlan plan = make_plan(scene, settings);
     if (!kLectureEffects.contains(plan.effects))
         throw Error("the scene calls for an effect that the lecture's estimators do not know; `koksma plan` lists its effects");
-    if (s.light == LightStrategy::bsdf && plan.effects.has(Effect::point_light))
-        throw Error("light strategy 'bsdf' cannot meet a light without extent (point, spot, directional, projector)");
+    if (s.light == Technique::bsdf && plan.effects.has(Effect::point_light))
+        throw Error("technique 'bsdf' cannot meet a light without extent (point, spot, directional, projector)");
     return plan;
 }
 

@@ -85,7 +85,7 @@ NeumannSeries RecursiveEstimator::arriving(const Branch& along) noexcept {
     const float share = 1.0f / static_cast<float>(settings_.branching);
     for (std::uint32_t k = 0; k < settings_.branching; ++k) {
         Numbers u(plan_, source_, {pixel_, along.number * settings_.branching + k}, along.depth);
-        if (settings_.light != LightStrategy::bsdf) light.term[1] += direct_light(at, u) * share;
+        if (settings_.light != Technique::bsdf) light.term[1] += direct_light(at, u) * share;
         if (std::optional<Continued> next = continuation(along, at, u)) {
             next->branch.number = along.number * settings_.branching + k;
             light.add_scattered(next->weight * share, arriving(next->branch));
@@ -95,8 +95,8 @@ NeumannSeries RecursiveEstimator::arriving(const Branch& along) noexcept {
 }
 
 float RecursiveEstimator::weight_of_met(const Branch& along, float pdf_light) const noexcept {
-    if (along.delta || settings_.light == LightStrategy::bsdf) return 1.0f;
-    return settings_.light == LightStrategy::light ? 0.0f : power_heuristic(along.pdf, pdf_light);
+    if (along.delta || settings_.light == Technique::bsdf) return 1.0f;
+    return settings_.light == Technique::light ? 0.0f : power_heuristic(along.pdf, pdf_light);
 }
 
 Vec3f RecursiveEstimator::environment(const Branch& along) const noexcept {
@@ -139,7 +139,7 @@ Vec3f RecursiveEstimator::direct_light(const Vertex& at, const Numbers& u) noexc
     const BsdfValue value = eval_local<kEffects>(scene_, local, at.wo, wi);
     const float pdf_light = light.pdf_w * choice.probability;
     float weight = 1.0f;
-    if (settings_.light == LightStrategy::mis && !light.delta)
+    if (settings_.light == Technique::mis && !light.delta)
         weight = power_heuristic(pdf_light, draws_uniformly(at) ? (at.wo.z > 0.0f && wi.z > 0.0f ? 0.5f * kInvPi : 0.0f) : value.pdf_w);
     const Vec3f contribution = value.f_cos * light.radiance * (weight / pdf_light);
     if (sum(contribution) <= 0.0f) return Vec3f{0.0f};  // a NaN goes on, to be counted

@@ -67,7 +67,7 @@ EffectSet needed_effects(const Scene& scene, const IntegratorSettings& settings)
     EffectSet effects = scene.effects;
     if (!settings.volumetric)
         for (const Effect e : kVolumetric) effects = effects.without(e);
-    if (settings.technique != Technique::both) effects |= {Effect::one_technique};
+    if (settings.technique != Technique::mis) effects |= {Effect::one_technique};
     if (settings.max_depth < 0 || settings.max_depth - 1 >= std::max(settings.rr_depth, 1)) effects |= {Effect::roulette};
     return effects;
 }

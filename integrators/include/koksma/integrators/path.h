@@ -33,7 +33,7 @@ inline constexpr std::int32_t kLosslessBounces = 256;
 template <EffectSet kEffects>
 [[nodiscard]] float technique_weight(const IntegratorSettings& settings, Technique own, float a, float b) noexcept {
     if constexpr (kEffects.has(Effect::one_technique))
-        if (settings.technique != Technique::both) return settings.technique == own ? 1.0f : 0.0f;
+        if (settings.technique != Technique::mis) return settings.technique == own ? 1.0f : 0.0f;
     return power_heuristic(a, b);
 }
 

@@ -352,9 +352,10 @@ struct FilmSettings {
     ReconstructionFilter filter{};
 };
 
-/// How light that reaches a surface straight from a light is estimated. `light` and `bsdf` are for comparisons: each is right by itself
-/// wherever it can make the direction at all (mirrors are left to the BSDF, points to light sampling), and noisy elsewhere.
-enum class Technique : std::uint8_t { both, light, bsdf };
+/// How light that reaches a surface straight from a light is estimated: by both ways, weighted by the power heuristic, or by one of
+/// them, for comparisons. Each is right by itself wherever it can make the direction at all (mirrors are left to the BSDF, points to
+/// light sampling), and noisy elsewhere.
+enum class Technique : std::uint8_t { mis, light, bsdf };
 
 struct IntegratorSettings {
     std::int32_t max_depth = -1;  ///< longest path in vertices after the camera; 1: emission seen directly; -1: no limit
@@ -363,7 +364,7 @@ struct IntegratorSettings {
     /// Mitsuba's volpath: there are media, and surfaces that let light pass straight on are no vertices of a path. False: its path, for
     /// which there is vacuum everywhere and passing on is a bounce.
     bool volumetric = false;
-    Technique technique = Technique::both;
+    Technique technique = Technique::mis;
     std::string moments;  ///< name under which moments of the samples are written beside the image; empty: none are kept
 };
 

@@ -25,7 +25,7 @@ void read_direct(Properties& p, IntegratorSettings& settings) {
     count("shading_samples", 1);
     const auto lights = count("emitter_samples", 0), bsdfs = count("bsdf_samples", 0);
     if (lights + bsdfs == 0) fail(p.where("bsdf_samples"), "'emitter_samples' and 'bsdf_samples' are both 0; one of them must be 1");
-    settings.technique = lights == 0 ? Technique::bsdf : bsdfs == 0 ? Technique::light : Technique::both;
+    settings.technique = lights == 0 ? Technique::bsdf : bsdfs == 0 ? Technique::light : Technique::mis;
     settings.max_depth = 2;
     settings.rr_depth = static_cast<std::int32_t>(kMax);  // no roulette
 }

@@ -10,13 +10,6 @@
 
 namespace koksma {
 
-/// How light is found.
-enum class LightStrategy : std::uint8_t {
-    bsdf,   ///< only by meeting it: no direct light sampling
-    light,  ///< by light sampling wherever it can; emission that is met counts for the camera and after delta directions
-    mis,    ///< both, weighted by the power heuristic, as the production kernels do
-};
-
 /// How the directions are drawn in which a path goes on.
 enum class DirectionStrategy : std::uint8_t {
     bsdf,     ///< from the BSDF
@@ -42,7 +35,7 @@ enum class RouletteNumber : std::uint8_t {
 };
 
 struct EstimatorSettings {
-    LightStrategy light = LightStrategy::mis;
+    Technique light = Technique::mis;
     DirectionStrategy direction = DirectionStrategy::bsdf;
     PathEnd end = PathEnd::throughput;
     double end_value = 0.0;  ///< of depth: >= 1; threshold: > 0; constant: (0, 1]
@@ -52,14 +45,14 @@ struct EstimatorSettings {
     std::uint32_t branching = 1;
 };
 
-[[nodiscard]] std::string_view name(LightStrategy s) noexcept;
+[[nodiscard]] std::string_view name(Technique s) noexcept;
 [[nodiscard]] std::string_view name(DirectionStrategy s) noexcept;
 [[nodiscard]] std::string_view name(RouletteNumber n) noexcept;
 /// "depth=4", "throughput"
 [[nodiscard]] std::string text_of_end(const EstimatorSettings& settings);
 
 /// The reverse. @throws Error naming what was found and what was expected
-[[nodiscard]] LightStrategy light_strategy_of(std::string_view text);
+[[nodiscard]] Technique technique_of(std::string_view text);
 [[nodiscard]] DirectionStrategy direction_strategy_of(std::string_view text);
 [[nodiscard]] RouletteNumber roulette_number_of(std::string_view text);
 void set_end(EstimatorSettings& settings, std::string_view text);
