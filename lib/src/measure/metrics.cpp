@@ -56,7 +56,7 @@ ImageError compare_images(std::span<const float> a, std::span<const float> b) {
         for (std::size_t c = 0; c < 3; ++c) {
             const double x = a[p + c], r = b[p + c], d = x - r;
             e.mse += d * d;
-            e.relmse += d * d / (r * r + eps);
+            if (eps > 0) e.relmse += d * d / (r * r + eps);
             e.mae += std::abs(d);
             e.smape += symmetric(x, r);
             e.max_abs = std::max(e.max_abs, std::abs(d));
@@ -64,7 +64,7 @@ ImageError compare_images(std::span<const float> a, std::span<const float> b) {
             e.mean_b[c] += r;
         }
     }
-    const auto pixels = static_cast<double>(e.pixels);  // 0 makes every mean NaN
+    const double pixels = e.pixels > 0 ? static_cast<double>(e.pixels) : kNaN;  // none makes every mean NaN
     e.mse /= 3 * pixels;
     e.rmse = std::sqrt(e.mse);
     e.relmse = eps > 0 ? e.relmse / (3 * pixels) : kNaN;
@@ -95,7 +95,8 @@ ReferenceError compare_to_reference(std::span<const float> image, std::span<cons
         if (!finite_image || !finite_reference) continue;
         ++e.pixels;
         for (std::size_t c = 0; c < 3; ++c) {
-            const double r = reference_mean[p + c], d = static_cast<double>(image[p + c]) - r, denominator = r * r + eps;
+            const double r = reference_mean[p + c], d = static_cast<double>(image[p + c]) - r;
+            const double denominator = eps > 0 ? r * r + eps : kNaN;
             const double variance = corrected ? static_cast<double>(reference_variance_of_mean[p + c]) : 0;
             e.mse_raw += d * d;
             e.relmse_raw += d * d / denominator;
@@ -105,7 +106,7 @@ ReferenceError compare_to_reference(std::span<const float> image, std::span<cons
             e.smape += symmetric(static_cast<double>(image[p + c]), r);
         }
     }
-    const double n = 3 * static_cast<double>(e.pixels);  // 0 makes every mean NaN
+    const double n = e.pixels > 0 ? 3 * static_cast<double>(e.pixels) : kNaN;  // none makes every mean NaN
     e.mse_raw /= n;
     e.mse_floor /= n;
     e.mae /= n;

@@ -79,8 +79,10 @@ SlopeFit fit_slope(std::span<const RatePoint> points, double confidence) {
         x_mean += u.weight[i] * u.x[i];
         y_mean += u.weight[i] * 0.5 * u.terms[i].value;
     }
-    x_mean /= weights;
-    y_mean /= weights;
+    if (weights > 0) {
+        x_mean /= weights;
+        y_mean /= weights;
+    }
     for (std::size_t i = 0; i < u.x.size(); ++i) xx += u.weight[i] * (u.x[i] - x_mean) * (u.x[i] - x_mean);
 
     std::vector<double> c;  // slope = sum c_i log(mean MSE_i); the 0.5 makes an RMSE of it

@@ -24,7 +24,8 @@ Crossing last_crossing(std::span<const double> seconds, std::span<const double> 
     while (first > 0 && errors[first - 1] <= target) --first;
     if (first == errors.size()) return {};
     if (first == 0) return {TimeTo::How::measured, seconds[0]};
-    const double above = std::log(errors[first - 1] / target), below = std::log(target / errors[first]);
+    const double above = std::log(errors[first - 1] / target);
+    const double below = errors[first] > 0 ? std::log(target / errors[first]) : std::numeric_limits<double>::infinity();
     // above > 0. An end of an interval may be infinite: then nothing is known before the next point.
     const double part = std::isinf(above) ? 1 : above / (above + below);
     return {TimeTo::How::interpolated, seconds[first - 1] * std::pow(seconds[first] / seconds[first - 1], part)};

@@ -8,14 +8,12 @@ namespace koksma {
 
 namespace {
 
+double reach(const ReconstructionFilter& f) noexcept { return f.kind == ReconstructionFilter::Kind::gaussian ? 4.0 * f.stddev : f.radius; }
+
 /// The part of a filter that is nearer to the centre than x, in [0, radius].
 class Inner {
 public:
-    explicit Inner(const ReconstructionFilter& f) : filter_(f) {
-        radius_ = f.kind == ReconstructionFilter::Kind::gaussian ? 4.0 * f.stddev : f.radius;
-        whole_ = integral(radius_);
-    }
-    [[nodiscard]] double radius() const noexcept { return radius_; }
+    explicit Inner(const ReconstructionFilter& f) : filter_(f), radius_(reach(f)), whole_(integral(radius_)) {}
     [[nodiscard]] double operator()(double x) const noexcept { return x < radius_ ? integral(x) / whole_ : 1.0; }
 
 private:
@@ -27,22 +25,23 @@ private:
         return s * std::sqrt(0.5 * std::numbers::pi) * std::erf(x / (s * std::numbers::sqrt2)) - x * std::exp(-8.0);
     }
     const ReconstructionFilter& filter_;
-    double radius_ = 0.5, whole_ = 1.0;
+    double radius_, whole_;
 };
 
 }  // namespace
 
 CompiledFilter compile_filter(const ReconstructionFilter& filter) {
     CompiledFilter out;
-    const Inner inner(filter);
-    if (!(inner.radius() > 0.0 && inner.radius() <= kLargestFilterRadius))
-        throw Error("a reconstruction filter reaches " + std::to_string(inner.radius()) + " pixels; it must be in (0, 32]");
+    const double radius = reach(filter);
+    if (!(radius > 0.0 && radius <= kLargestFilterRadius))
+        throw Error("a reconstruction filter reaches " + std::to_string(radius) + " pixels; it must be in (0, 32]");
     if (filter.is_pixel()) return out;
+    const Inner inner(filter);
     constexpr int kCells = 512;
     out.distance.resize(kCells + 1);
     for (int i = 0; i <= kCells; ++i) {
         const double s = static_cast<double>(i) / kCells, wanted = 1.0 - s * s;
-        double low = 0.0, high = inner.radius();
+        double low = 0.0, high = radius;
         for (int step = 0; step < 60; ++step) {
             const double middle = 0.5 * (low + high);
             (inner(middle) < wanted ? low : high) = middle;
@@ -50,7 +49,7 @@ CompiledFilter compile_filter(const ReconstructionFilter& filter) {
         out.distance[static_cast<std::size_t>(i)] = static_cast<float>(0.5 * (low + high));
     }
     if (!filter.beyond_film)
-        for (double border = 0.5; border < inner.radius(); border += 1.0) out.beyond.push_back(static_cast<float>(0.5 * (1.0 - inner(border))));
+        for (double border = 0.5; border < radius; border += 1.0) out.beyond.push_back(static_cast<float>(0.5 * (1.0 - inner(border))));
     return out;
 }
 
