@@ -299,12 +299,24 @@ class WhatThePageShows(ReportTest):
             self.assertIn(words, text)
 
     def test_intervals_of_heavy_tailed_errors_say_what_they_cover(self):
-        self.assertNotIn("\u2021</a>", self.page())
-        self.scene["samplers"][2]["interval_coverage"] = {"replicates": 4, "rmse": 0.937, "slope": 0.914, "gain": 0.87}
-        page = self.page()
-        self.assertGreater(page.count("\u2021</a>"), 5)  # beside gain, slope and every point
-        text = " ".join(Page(page).text.split())
+        self.assertNotIn('class="tails"', self.page())
+        sampler = self.scene["samplers"][2]
+        sampler["interval_coverage"] = {"replicates": 4, "rmse": 0.937, "slope": 0.914, "gain": 0.87}
+        self.scene["predictions"] = [{"says": "slope", "of": "slope", "verdict": "held", "found": [
+            {"what": sampler["label"], "value": -0.5, "lo": -0.6, "hi": -0.4, "verdict": "held"}]}]
+        self.scene["predictions_verdict"] = "held"
+        text = " ".join(Page(self.page()).text.split())
+        for of, beside in (("slope", "\u2021 91.4 %"), ("gain", "\u2021 87.0 %")):
+            self.assertIn(beside, text, of)
+        self.assertIn("\u22120.500 [\u22120.600, \u22120.400]\u2021 91.4 %", text)  # of a prediction
+        self.assertNotIn("\u2021 93.7 %", text)  # that of an RMSE covers
         self.assertIn("with 4 replicates at least 93.7 % (RMSE, relMSE), 91.4 % (slope), 87.0 % (gain)", text)
+
+    def test_a_gain_over_a_heavy_tailed_baseline_says_what_it_covers_at_every_sampler(self):
+        self.scene["samplers"][0]["interval_coverage"] = {"replicates": 16, "rmse": 0.95, "slope": 0.942, "gain": 0.926}
+        text = " ".join(Page(self.page()).text.split())
+        self.assertGreaterEqual(text.count("\u2021 92.6 %"), len(self.scene["samplers"]) - 1)
+        self.assertNotIn("\u2021 94.2 %", text)
 
     def test_many_samplers_stand_one_below_the_other(self):
         specs = [(f"s{i}", f"Sampler {i}", 1.0, 0.1) for i in range(12)]
