@@ -31,6 +31,7 @@ def render_page(summary: Summary) -> str:
         "overview": overview_figure(summary, styles, "overview"),
         "scenes": [_scene_context(scene, styles, f"scene{i}") for i, scene in enumerate(summary.scenes, 1)],
         "anchors": {scene.name: f"scene{i}" for i, scene in enumerate(summary.scenes, 1)}, "grid_titles": _grid_titles(summary),
+        "titled": lambda rows, titles: [(scene, row) for scene, row in rows if titles[scene.name] is not None],
         "has_targets": any(tables.targets(scene) for scene in summary.scenes),
         "colour_maps": colour_maps_json(), "verdicts": _count_verdicts(summary),
         "has_predictions": any(scene.predictions for scene in summary.scenes),

@@ -4,6 +4,7 @@ import contextlib
 import copy
 import io
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -325,6 +326,16 @@ class WhatThePageShows(ReportTest):
         self.assertIsNone(page.unbalanced)
         self.assertIn("<th scope=\"row\">", self.page())
         self.assertEqual(len(page.ids), len(set(page.ids)))
+
+    def test_of_many_samplers_a_table_has_four_scenes_at_most_and_all_are_shown(self):
+        names = tuple(synthetic.SCENES)
+        self.summary = synthetic.make_summary(names, [(f"s{i}", f"Sampler {i}", 1.0, 0.1) for i in range(12)])
+        page = self.page()
+        heads = re.findall(r'<thead><tr><th scope="col">Sampler</th>\s*((?:<th scope="col"><a href="#scene\d+">.*?</th>\s*)+)</tr></thead>', page)
+        shown = [re.findall(r'#scene(\d+)"', head) for head in heads]
+        self.assertEqual(len(names), 6)
+        self.assertIn([["1", "2", "3", "4"], ["5", "6"]], [shown[i:i + 2] for i in range(len(shown))])
+        self.assertIsNone(Page(page).unbalanced)
 
     def test_raw_rows_are_linked_when_they_are_there(self):
         self.assertNotIn('href="results.jsonl"', self.page())
