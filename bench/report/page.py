@@ -3,7 +3,6 @@
 from pathlib import Path
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
-from markupsafe import Markup
 
 from . import evidence as behind
 from . import formats, tables
@@ -14,6 +13,7 @@ from .model import Picture, Scene, Summary
 from .overview import overview_figure
 from .palette import Style, assign_styles, swatch
 from .pictures import data_uri, enlargement
+from .tails import finding_tails, gain_tails, marked, tails
 from .viewer import colour_maps_json, detail_style, viewer_json, window_of_difference
 
 _HERE = Path(__file__).parent
@@ -31,11 +31,12 @@ def render_page(summary: Summary) -> str:
         "overview": overview_figure(summary, styles, "overview"),
         "scenes": [_scene_context(scene, styles, f"scene{i}") for i, scene in enumerate(summary.scenes, 1)],
         "anchors": {scene.name: f"scene{i}" for i, scene in enumerate(summary.scenes, 1)}, "grid_titles": _grid_titles(summary),
+        "titled": lambda rows, titles: [(scene, row) for scene, row in rows if titles[scene.name] is not None],
         "has_targets": any(tables.targets(scene) for scene in summary.scenes),
         "colour_maps": colour_maps_json(), "verdicts": _count_verdicts(summary),
         "has_predictions": any(scene.predictions for scene in summary.scenes),
         "has_equal_time": any(s.equal_time for scene in summary.scenes for s in scene.samplers),
-        "heavy": [s for scene in summary.scenes for s in scene.samplers if s.coverage],
+        "heavy": marked(summary),
         "has_rows_file": (summary.directory / "results.jsonl").is_file(),
     }
     return _environment(styles).get_template("template.html.j2").render(context)
@@ -79,12 +80,6 @@ def _count_verdicts(summary: Summary) -> dict[str, int]:
     return {verdict: verdicts.count(verdict) for verdict in ("held", "refuted", "undecided", "not tested")}
 
 
-def _coverage_text(result) -> str:
-    """Beside an interval of heavy-tailed errors."""
-    return Markup(f'<a class="tails" href="#tails" title="heavy tails: such intervals were seen to cover at least {formats.percent(result.coverage.rmse)} (RMSE), '
-                  f'{formats.percent(result.coverage.slope)} (slope), {formats.percent(result.coverage.gain)} (gain)">\u2021</a>') if result.coverage else ""
-
-
 def _crop_frame(scene: Scene) -> tuple[float, float, float, float] | None:
     """Where the crop lies in the scene's picture, as per cent of left, top, width and height.
 
@@ -109,7 +104,7 @@ def _environment(styles: dict[str, Style]) -> Environment:
         interval=formats.interval, slope=formats.slope, slope_interval=lambda estimate: formats.interval(estimate, formats.slope),
         uri=lambda picture: data_uri(picture) if isinstance(picture, Picture) else "")
     environment.globals.update(
-        tails=_coverage_text, detail_style=detail_style,
+        tails=tails, gain_tails=gain_tails, finding_tails=finding_tails, detail_style=detail_style,
         key_of=lambda sampler: swatch(styles[sampler.sampler]),
         time_to=tables.time_to, common_target=tables.common_target, fastest=tables.fastest, gain_spp=tables.gain_spp)
     return environment

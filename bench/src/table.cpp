@@ -2,10 +2,12 @@
 #include "summary.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -34,10 +36,10 @@ std::string with_percent(const Json& value, const Json& lo, const Json& hi) {
 void print_scene(const Json& scene) {
     fmt::print("\n{}: crop {}x{} of {}x{}, {} dimensions, kernel {}\n", scene.at("name").get<std::string>(), scene.at("crop")[2].get<int>(), scene.at("crop")[3].get<int>(),
                scene.at("film")[0].get<int>(), scene.at("film")[1].get<int>(), scene.at("dimensions").get<int>(), scene.at("kernel").get<std::string>());
-    fmt::print("  {:<28}{:>5} {:>5}  {:<20}{:<20}{:>11}{:>11}{:>9}\n", "sampler", "spp", "runs", "RMSE", "relMSE", "CPU s", "wall s", "sampler");
+    fmt::print("  {:<29}{:>5} {:>5}  {:<20}{:<20}{:>11}{:>11}{:>9}\n", "sampler", "spp", "runs", "RMSE", "relMSE", "CPU s", "wall s", "sampler");
     for (const Json& s : scene.at("samplers"))
         for (const Json& p : s.at("points"))
-            fmt::print("  {:<28}{:>5} {:>5}  {:<20}{:<20}{:>11.4f}{:>11.4f}{:>7.1f} %\n", s.at("sampler").get<std::string>(), p.at("spp").get<std::uint64_t>(),
+            fmt::print("  {:<29}{:>5} {:>5}  {:<20}{:<20}{:>11.4f}{:>11.4f}{:>7.1f} %\n", s.at("sampler").get<std::string>(), p.at("spp").get<std::uint64_t>(),
                        p.at("replicates").get<int>(), with_percent(p.at("rmse"), p.at("rmse_lo"), p.at("rmse_hi")),
                        with_percent(p.at("relmse"), p.at("relmse_lo"), p.at("relmse_hi")), p.at("cpu_seconds").get<double>(), p.at("wall_seconds").get<double>(),
                        100.0 * p.at("sampler_share").get<double>());
@@ -56,23 +58,48 @@ void print_rates(const Json& scene) {
         for (const Json& t : s.at("time_to"))
             times += fmt::format("{:>12}", t.at("seconds").is_null() ? "not reached" : fmt::format("{}{:.3g}", t.at("how") == "measured" ? "<= " : "", t.at("seconds").get<double>()));
         if (s.at("heavy_tailed").get<bool>()) times += "  tails";
-        fmt::print("  {:<10}{:<28}{:<26}{:<38}{}\n", scene.at("name").get<std::string>(), s.at("sampler").get<std::string>(),
+        fmt::print("  {:<12}{:<29}{:<26}{:<38}{}\n", scene.at("name").get<std::string>(), s.at("sampler").get<std::string>(),
                    slope.is_null() ? "-" : with_interval(slope.at("value"), slope.at("lo"), slope.at("hi"), "{:.3f}"), gain_text, times);
     }
 }
 
-/// Who is told apart from whom at the largest common spp, and who is not.
+/// Whom nobody is told to beat. @param pairs  of one scene
+std::vector<std::string> leaders_of(const Json& pairs) {
+    std::vector<std::string> all;
+    std::set<std::string> beaten;
+    for (const Json& p : pairs)
+        for (const char* side : {"a", "b"}) {
+            const auto sampler = p.at(side).get<std::string>();
+            if (std::find(all.begin(), all.end(), sampler) == all.end()) all.push_back(sampler);
+            if (!p.at("better").is_null() && p.at("better") != p.at(side)) beaten.insert(sampler);
+        }
+    all.erase(std::remove_if(all.begin(), all.end(), [&](const std::string& s) { return beaten.count(s) > 0; }), all.end());
+    return all;
+}
+
+/// Who is told apart from whom at the largest common spp, and who is not; of many pairs, how many and who leads.
 void print_pairs(const Json& scene) {
-    if (scene.at("pairs").empty()) return;
+    constexpr std::size_t kMost = 15;  // those of six samplers
+    const Json& pairs = scene.at("pairs");
+    const auto name = scene.at("name").get<std::string>();
+    if (pairs.empty()) return;
     std::string better, alike;
-    for (const Json& p : scene.at("pairs")) {
+    std::size_t apart = 0;
+    for (const Json& p : pairs) {
         const auto a = p.at("a").get<std::string>(), b = p.at("b").get<std::string>();
-        if (p.at("better").is_null())
+        if (p.at("better").is_null()) {
             alike += (alike.empty() ? "" : "; ") + a + " and " + b;
-        else
+        } else {
             better += (better.empty() ? "" : "; ") + (p.at("better") == p.at("a") ? a + " over " + b : b + " over " + a);
+            ++apart;
+        }
     }
-    fmt::print("  {:<10}better: {}\n  {:<10}not distinguishable: {}\n", scene.at("name").get<std::string>(), better.empty() ? "none" : better, "", alike.empty() ? "none" : alike);
+    if (pairs.size() <= kMost)
+        fmt::print("  {:<12}better: {}\n  {:<12}not distinguishable: {}\n", name, better.empty() ? "none" : better, "",
+                   alike.empty() ? "none" : alike);
+    else
+        fmt::print("  {:<12}{} of {} pairs told apart; nobody is told to beat {}\n", name, apart, pairs.size(),
+                   fmt::join(leaders_of(pairs), ", "));
 }
 
 void print_across(const Json& summary) {
@@ -80,14 +107,14 @@ void print_across(const Json& summary) {
     fmt::print("\nAcross these {} scenes: MSE gain over random, geometric mean, lowest and highest (of other scenes this says nothing)\n", summary.at("scenes").size());
     for (const Json& s : summary.at("across_scenes"))
         if (!s.at("geometric_mean").is_null())
-            fmt::print("  {:<28}{:>10.3g}{:>10.3g}{:>10.3g}   {} scenes{}\n", s.at("sampler").get<std::string>(), s.at("geometric_mean").get<double>(), s.at("lowest").get<double>(),
+            fmt::print("  {:<29}{:>10.3g}{:>10.3g}{:>10.3g}   {} scenes{}\n", s.at("sampler").get<std::string>(), s.at("geometric_mean").get<double>(), s.at("lowest").get<double>(),
                        s.at("highest").get<double>(), s.at("scenes").get<int>(), s.at("left_out") == 0 ? "" : fmt::format(", {} without a gain left out", s.at("left_out").get<int>()));
 }
 
 /// Each claim of a scene's predictions with its verdict and the figures it rests on.
 void print_predictions(const Json& scene) {
     if (scene.at("predictions").empty()) return;
-    fmt::print("  {:<10}{}\n", scene.at("name").get<std::string>(), scene.at("predictions_verdict").get<std::string>());
+    fmt::print("  {:<12}{}\n", scene.at("name").get<std::string>(), scene.at("predictions_verdict").get<std::string>());
     for (const Json& p : scene.at("predictions")) {
         std::string figures;
         for (const Json& f : p.at("found")) {
@@ -104,7 +131,7 @@ void print_equal_time(const Json& scene) {
     for (const Json& s : scene.at("samplers")) {
         const Json& e = s.at("equal_time_vs_random");
         if (e.is_null()) continue;
-        fmt::print("  {:<10}{:<28}{:>9.3g} s   {}\n", scene.at("name").get<std::string>(), s.at("sampler").get<std::string>(), e.at("seconds").get<double>(),
+        fmt::print("  {:<12}{:<29}{:>9.3g} s   {}\n", scene.at("name").get<std::string>(), s.at("sampler").get<std::string>(), e.at("seconds").get<double>(),
                    with_interval(e.at("mse_ratio"), e.at("lo"), e.at("hi"), "{:.3g}"));
     }
 }
@@ -114,7 +141,7 @@ void print_progressive(const Json& scene) {
         const Json& p = s.at("progressive");
         if (p.is_null() || p.at("slope").is_null()) continue;
         const Json& slope = p.at("slope");
-        fmt::print("  {:<10}{:<28}{:<26}{} renders to {} spp\n", scene.at("name").get<std::string>(), s.at("sampler").get<std::string>(),
+        fmt::print("  {:<12}{:<29}{:<26}{} renders to {} spp\n", scene.at("name").get<std::string>(), s.at("sampler").get<std::string>(),
                    with_interval(slope.at("value"), slope.at("lo"), slope.at("hi"), "{:.3f}"), p.at("renders").get<int>(), p.at("planned_spp").get<std::uint64_t>());
     }
 }
@@ -130,7 +157,7 @@ void print_layouts(const Json& scene) {
             const auto rmse = [](const Json& x) { return x.is_null() ? std::string("below floor") : fmt::format("{:.3e}", x.get<double>()); };
             std::string verdict;
             if (!spread.at("lo").is_null() && spread.at("lo") == 0.0) verdict = "layouts not distinguishable";
-            fmt::print("  {:<10}{:<28}{:>5}  {:<12}{:<12}{:<12}{:<22}{:<24}{}\n", scene.at("name").get<std::string>(), s.at("sampler").get<std::string>(),
+            fmt::print("  {:<12}{:<29}{:>5}  {:<12}{:<12}{:<12}{:<22}{:<24}{}\n", scene.at("name").get<std::string>(), s.at("sampler").get<std::string>(),
                        l.at("spp").get<std::uint64_t>(), rmse(l.at("rmse")), rmse(l.at("lowest")), rmse(l.at("highest")),
                        fmt::format("{} [{}, {}] %", percent(spread.at("value")), percent(spread.at("lo")), percent(spread.at("hi"))),
                        with_interval(plan.at("value"), plan.at("lo"), plan.at("hi"), "{:.3f}"), verdict);
@@ -177,7 +204,7 @@ void print_effects(const Json& scene) {
                cost.at("kernel").get<std::string>());
     for (const Json& l : cost.at("lines")) {
         const Json &time = l.at("time_ratio"), &error = l.at("mse_ratio");
-        fmt::print("    {:<28}{:>5} {:>9.0f}{:>9.0f}  {:<24}{:<24}{}\n", l.at("sampler").get<std::string>(), l.at("spp").get<std::uint64_t>(),
+        fmt::print("    {:<29}{:>5} {:>9.0f}{:>9.0f}  {:<24}{:<24}{}\n", l.at("sampler").get<std::string>(), l.at("spp").get<std::uint64_t>(),
                    l.at("ns_per_path_needed").get<double>(), l.at("ns_per_path").get<double>(), with_interval(time.at("value"), time.at("lo"), time.at("hi"), "{:.3f}"),
                    with_interval(error.at("value"), error.at("lo"), error.at("hi"), "{:.3f}"), l.at("distinguishable").get<bool>() ? "distinguishable" : "");
     }
@@ -199,7 +226,7 @@ void print_tables(const Json& summary) {
     std::string targets;
     for (const Json& t : summary.at("scenes")[0].at("samplers")[0].at("time_to")) targets += fmt::format("{:>12}", fmt::format("{:g}", t.at("relmse").get<double>()));
     fmt::print("\nRates (log RMSE against log spp, 1 spp left out), MSE gain over random at the largest spp, CPU seconds to reach a relMSE of\n");
-    fmt::print("  {:<10}{:<28}{:<26}{:<38}{}\n", "scene", "sampler", "slope [95 %]", "gain [95 %]", targets);
+    fmt::print("  {:<12}{:<29}{:<26}{:<38}{}\n", "scene", "sampler", "slope [95 %]", "gain [95 %]", targets);
     for (const Json& scene : summary.at("scenes")) print_rates(scene);
     if (any_sampler(summary, [](const Json& s) { return s.at("heavy_tailed").get<bool>(); }))
         fmt::print("  tails: single replicates stand far above the others; of such laws 95 % intervals were seen to cover less (summary.json: interval_coverage)\n");
@@ -222,14 +249,14 @@ void print_tables(const Json& summary) {
     if (any_sampler(summary, [](const Json& s) { return !s.at("layouts").is_null(); })) {
         fmt::print("\nLuck of dimensions: RMSE over permuted layouts (geometric mean, lowest, highest), their standard deviation without the replicates'\n"
                    "noise, and the RMSE of the layout as planned over that of the permuted ones [95 %]\n");
-        fmt::print("  {:<10}{:<28}{:>5}  {:<12}{:<12}{:<12}{:<22}{:<24}\n", "scene", "sampler", "spp", "RMSE", "lowest", "highest", "spread [95 %]",
+        fmt::print("  {:<12}{:<29}{:>5}  {:<12}{:<12}{:<12}{:<22}{:<24}\n", "scene", "sampler", "spp", "RMSE", "lowest", "highest", "spread [95 %]",
                    "planned/permuted [95 %]");
         for (const Json& scene : summary.at("scenes")) print_layouts(scene);
     }
     if (std::any_of(summary.at("scenes").begin(), summary.at("scenes").end(), [](const Json& s) { return !s.at("cost_of_effects").is_null(); })) {
         fmt::print("\nEffects that nothing calls for: nanoseconds a path with the needed ones and with more, the ratio of the times of renders that were made one\n"
                    "after the other [95 %], and MSE with more over MSE with the needed ones [95 %]\n");
-        fmt::print("    {:<28}{:>5} {:>9}{:>9}  {:<24}{:<24}\n", "sampler", "spp", "needed", "more", "time [95 %]", "MSE [95 %]");
+        fmt::print("    {:<29}{:>5} {:>9}{:>9}  {:<24}{:<24}\n", "sampler", "spp", "needed", "more", "time [95 %]", "MSE [95 %]");
         for (const Json& scene : summary.at("scenes")) print_effects(scene);
     }
     if (const auto invalid = summary.at("invalid_samples").get<std::uint64_t>(); invalid > 0) fmt::print("\n{} invalid samples (they count as zero); koksma render --stats locates them\n", invalid);

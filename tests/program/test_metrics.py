@@ -1,6 +1,7 @@
 """Metrics against numpy, which shares no code with the program. Skipped without numpy."""
 
 import math
+import re
 import unittest
 
 from exr import Exr
@@ -97,6 +98,20 @@ class Ranks(BenchTest):
             self.assertEqual(pair["verdict"], "distinguishable" if least < 0.05 else "not distinguishable")
             self.assertEqual(pair["better"], None if least >= 0.05 else pair["a" if pair["mse_ratio"]["value"] > 1 else "b"])
         self.assertIn("not distinguishable:", out)
+
+    def test_of_many_pairs_the_table_says_how_many_and_who_leads(self):
+        samplers = ["random", "sobol", "stratified", "halton", "lhs", "pmj02", "sobol-padded"]
+        self.write_experiment(samplers=samplers, spp=[1, 16], replicates=[4, 4])
+        out = self.bench("--no-report").out
+        pairs = self.summary()["scenes"][0]["pairs"]
+        apart = [pair for pair in pairs if pair["better"]]
+        self.assertEqual(len(pairs), 21)
+        beaten = {pair[side] for pair in apart for side in "ab" if pair[side] != pair["better"]}
+        found = re.search(r"scene +(\d+) of 21 pairs told apart; nobody is told to beat (.*)\n", out)
+        self.assertEqual(int(found[1]), len(apart))
+        self.assertEqual(set(found[2].split(", ")), {name for pair in pairs for name in (pair["a"], pair["b"])} - beaten)
+        self.assertGreater(len(apart), 0)
+        self.assertNotIn("not distinguishable:", out)
 
     def test_across_scenes_mean_and_range(self):
         self.write("other.xml", self.read("scene.xml").decode().replace('value="12, 11, 9"', 'value="1, 1, 1"'))

@@ -4,6 +4,7 @@ import contextlib
 import copy
 import io
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -299,12 +300,24 @@ class WhatThePageShows(ReportTest):
             self.assertIn(words, text)
 
     def test_intervals_of_heavy_tailed_errors_say_what_they_cover(self):
-        self.assertNotIn("\u2021</a>", self.page())
-        self.scene["samplers"][2]["interval_coverage"] = {"replicates": 4, "rmse": 0.937, "slope": 0.914, "gain": 0.87}
-        page = self.page()
-        self.assertGreater(page.count("\u2021</a>"), 5)  # beside gain, slope and every point
-        text = " ".join(Page(page).text.split())
+        self.assertNotIn('class="tails"', self.page())
+        sampler = self.scene["samplers"][2]
+        sampler["interval_coverage"] = {"replicates": 4, "rmse": 0.937, "slope": 0.914, "gain": 0.87}
+        self.scene["predictions"] = [{"says": "slope", "of": "slope", "verdict": "held", "found": [
+            {"what": sampler["label"], "value": -0.5, "lo": -0.6, "hi": -0.4, "verdict": "held"}]}]
+        self.scene["predictions_verdict"] = "held"
+        text = " ".join(Page(self.page()).text.split())
+        for of, beside in (("slope", "\u2021 91.4 %"), ("gain", "\u2021 87.0 %")):
+            self.assertIn(beside, text, of)
+        self.assertIn("\u22120.500 [\u22120.600, \u22120.400]\u2021 91.4 %", text)  # of a prediction
+        self.assertNotIn("\u2021 93.7 %", text)  # that of an RMSE covers
         self.assertIn("with 4 replicates at least 93.7 % (RMSE, relMSE), 91.4 % (slope), 87.0 % (gain)", text)
+
+    def test_a_gain_over_a_heavy_tailed_baseline_says_what_it_covers_at_every_sampler(self):
+        self.scene["samplers"][0]["interval_coverage"] = {"replicates": 16, "rmse": 0.95, "slope": 0.942, "gain": 0.926}
+        text = " ".join(Page(self.page()).text.split())
+        self.assertGreaterEqual(text.count("\u2021 92.6 %"), len(self.scene["samplers"]) - 1)
+        self.assertNotIn("\u2021 94.2 %", text)
 
     def test_many_samplers_stand_one_below_the_other(self):
         specs = [(f"s{i}", f"Sampler {i}", 1.0, 0.1) for i in range(12)]
@@ -313,6 +326,16 @@ class WhatThePageShows(ReportTest):
         self.assertIsNone(page.unbalanced)
         self.assertIn("<th scope=\"row\">", self.page())
         self.assertEqual(len(page.ids), len(set(page.ids)))
+
+    def test_of_many_samplers_a_table_has_four_scenes_at_most_and_all_are_shown(self):
+        names = tuple(synthetic.SCENES)
+        self.summary = synthetic.make_summary(names, [(f"s{i}", f"Sampler {i}", 1.0, 0.1) for i in range(12)])
+        page = self.page()
+        heads = re.findall(r'<thead><tr><th scope="col">Sampler</th>\s*((?:<th scope="col"><a href="#scene\d+">.*?</th>\s*)+)</tr></thead>', page)
+        shown = [re.findall(r'#scene(\d+)"', head) for head in heads]
+        self.assertEqual(len(names), 6)
+        self.assertIn([["1", "2", "3", "4"], ["5", "6"]], [shown[i:i + 2] for i in range(len(shown))])
+        self.assertIsNone(Page(page).unbalanced)
 
     def test_raw_rows_are_linked_when_they_are_there(self):
         self.assertNotIn('href="results.jsonl"', self.page())
