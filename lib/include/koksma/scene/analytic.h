@@ -37,8 +37,7 @@ struct AnalyticCylinder {
     if (!(discriminant >= 0.0)) return kInfinity;
     const double c = dot(f, f) - sphere.radius * sphere.radius;
     const double q = b + std::copysign(std::sqrt(a * discriminant), b);
-    double t0 = c / q, t1 = q / a;
-    if (q == 0.0) t0 = t1;
+    double t1 = q / a, t0 = q != 0.0 ? c / q : t1;
     if (t0 > t1) std::swap(t0, t1);
     if (t0 > ray.t_near && t0 < ray.t_far) return t0;
     if (t1 > ray.t_near && t1 < ray.t_far) return t1;
@@ -53,7 +52,9 @@ struct DiskHit {
 [[nodiscard]] inline DiskHit intersect(const AnalyticDisk& disk, const Ray& ray) noexcept {
     const Vec3d n = cross(disk.s, disk.t);
     const Vec3d d = to_double(ray.d);
-    const double t = dot(disk.center - to_double(ray.o), n) / dot(d, n);
+    const double dn = dot(d, n);
+    if (dn == 0.0) return {};  // along the plane
+    const double t = dot(disk.center - to_double(ray.o), n) / dn;
     if (!(t > ray.t_near && t < ray.t_far)) return {};
     const Vec3d q = to_double(ray.o) + d * t - disk.center;
     const double nn = dot(n, n);
@@ -79,8 +80,7 @@ struct CylinderHit {
     const double discriminant = r2 - lx * lx - ly * ly;
     if (!(discriminant >= 0.0)) return {};
     const double q = b + std::copysign(std::sqrt(a * discriminant), b);
-    double t0 = (ox * ox + oy * oy - r2) / q, t1 = q / a;
-    if (q == 0.0) t0 = t1;
+    double t1 = q / a, t0 = q != 0.0 ? (ox * ox + oy * oy - r2) / q : t1;
     if (t0 > t1) std::swap(t0, t1);
     for (const double t : {t0, t1}) {
         const double along = oz + dz * t;
