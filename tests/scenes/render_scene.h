@@ -103,12 +103,14 @@ struct WorstCheck {
     return worst;
 }
 
-/// Checks that the mean is `expected` up to a relative tolerance, noise excluded, and that the noise is small enough to tell.
+/// Checks that the mean is `expected` up to a relative tolerance, noise excluded, and that the noise is small enough to tell. Where 0 is
+/// expected, that it is 0.
 inline void check_mean(const Measured& m, double expected, double relative) {
-    INFO("mean " << m.mean << " expected " << expected << " relative error " << m.mean / expected - 1 << " tolerance " << relative
-                 << " standard error " << m.standard_error << " invalid " << m.invalid);
-    const double share = std::fabs(m.mean - expected) / (relative * std::fabs(expected) + m.noise());
-    if (!(share <= worst_check().share)) worst_check() = {share, m.mean / expected - 1, m.noise() / std::fabs(expected), relative};
+    const double scale = expected != 0 ? std::fabs(expected) : 1, error = (m.mean - expected) / scale, allowed = relative * std::fabs(expected) + m.noise();
+    INFO("mean " << m.mean << " expected " << expected << " relative error " << error << " tolerance " << relative << " standard error "
+                 << m.standard_error << " invalid " << m.invalid);
+    const double share = allowed > 0 ? std::fabs(m.mean - expected) / allowed : m.mean == expected ? 0 : 1e300;
+    if (!(share <= worst_check().share)) worst_check() = {share, error, m.noise() / scale, relative};
     CHECK(m.invalid == 0);
     CHECK(std::fabs(m.mean - expected) <= relative * std::fabs(expected) + m.noise());
     CHECK(m.standard_error <= relative * std::fabs(expected));
