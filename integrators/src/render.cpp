@@ -1,13 +1,11 @@
 #include <koksma/integrators/float_mode.h>
-#include <koksma/integrators/happens_before.h>
 #include <koksma/integrators/render.h>
 #include <koksma/integrators/thread_clock.h>
 #include <koksma/sampling/error.h>
 
-#include <tbb/blocked_range.h>
+#include "parallel_tasks.h"
+
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <atomic>
@@ -133,10 +131,8 @@ RenderResult render(const Scene& scene, const RenderPlan& plan, const SampleSour
     std::mutex progress_mutex;
     std::size_t done = 0;
     const auto start = std::chrono::steady_clock::now();
-    HappensBefore fork, join;
     const auto run_tile = [&](std::size_t i) {
         if (options.stop.stop_requested()) return;
-        fork.await();
         const auto column = static_cast<std::int32_t>(i % static_cast<std::size_t>(columns)), row = static_cast<std::int32_t>(i / static_cast<std::size_t>(columns));
         const PixelRect tile{work.rect.x + column * side, work.rect.y + row * side, std::min(side, work.rect.width - column * side),
                              std::min(side, work.rect.height - row * side)};
@@ -145,16 +141,8 @@ RenderResult render(const Scene& scene, const RenderPlan& plan, const SampleSour
             const std::lock_guard lock(progress_mutex);
             options.progress(static_cast<double>(++done) / static_cast<double>(tiles.size()));
         }
-        join.announce();
     };
-    fork.announce();
-    tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
-    arena.execute([&] {
-        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tiles.size(), 1), [&](const auto& range) {
-            for (std::size_t i = range.begin(); i != range.end(); ++i) run_tile(i);
-        }, tbb::simple_partitioner());
-    });
-    join.await();
+    detail::for_each_task(tiles.size(), options.threads, run_tile);
     result.stats.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     for (const RenderStats& t : tiles) merge(result.stats, t);
     TraceStats traced;

@@ -2,10 +2,9 @@
 #include <koksma/integrators/lecture/adaptive.h>
 #include <koksma/integrators/thread_clock.h>
 
-#include <tbb/blocked_range.h>
+#include "../parallel_tasks.h"
+
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <chrono>
@@ -79,15 +78,7 @@ RenderResult render_counts(const Scene& scene, const RenderPlan& plan, const Sam
         gathered.flush();
         rows[row].cpu_seconds = thread_seconds() - thread_start - (tracer.stats().idle_seconds - idle);
     };
-    tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
-    arena.execute([&] {
-        tbb::parallel_for(
-            tbb::blocked_range<std::size_t>(0, rows.size(), 1),
-            [&](const auto& range) {
-                for (std::size_t row = range.begin(); row != range.end(); ++row) run_row(row);
-            },
-            tbb::simple_partitioner());
-    });
+    detail::for_each_task(rows.size(), threads, run_row);
     result.stats.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     for (const RenderStats& row : rows) {
         result.stats.cpu_seconds += row.cpu_seconds;

@@ -3,9 +3,7 @@
 #include <koksma/integrators/thread_clock.h>
 #include <koksma/sampling/error.h>
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
+#include "../parallel_tasks.h"
 
 #include <algorithm>
 #include <array>
@@ -74,15 +72,7 @@ EstimateResult render_estimate(const Scene& scene, const RenderPlan& plan, const
         ledgers[i] = std::move(estimator.ledger());
         seconds[i] = thread_seconds() - thread_start;
     };
-    tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
-    arena.execute([&] {
-        tbb::parallel_for(
-            tbb::blocked_range<std::size_t>(0, ledgers.size(), 1),
-            [&](const auto& range) {
-                for (std::size_t i = range.begin(); i != range.end(); ++i) run_tile(i);
-            },
-            tbb::simple_partitioner());
-    });
+    detail::for_each_task(ledgers.size(), threads, run_tile);
     result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     for (std::size_t i = 0; i < ledgers.size(); ++i) {  // in the order of tiles: the same sums for any number of threads
         result.ledger.merge(ledgers[i]);
