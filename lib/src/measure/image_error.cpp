@@ -93,7 +93,7 @@ double median_pixel_gain(std::span<const double> mse_a, std::span<const double> 
     if (mse_a.size() != mse_b.size()) throw Error("image errors: maps differ in size");
     std::vector<double> ratios;
     for (std::size_t i = 0; i < mse_a.size(); ++i)
-        if (mse_a[i] > 0 || mse_b[i] > 0) ratios.push_back(mse_b[i] / mse_a[i]);
+        if (mse_a[i] > 0 || mse_b[i] > 0) ratios.push_back(mse_a[i] > 0 ? mse_b[i] / mse_a[i] : std::numeric_limits<double>::infinity());
     if (ratios.empty()) return std::numeric_limits<double>::quiet_NaN();
     const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
     std::nth_element(ratios.begin(), middle, ratios.end());
