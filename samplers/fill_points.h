@@ -21,5 +21,10 @@ template <class Sampler>
         }
     }
 }
+/// A run of slots, one after the other.
+template <class Sampler>
+void fill_points(const Sampler& sampler, std::span<const SampleId> samples, SlotRun run, float* out, std::size_t stride) noexcept {
+    for (const Slot& slot : run) fill_points(sampler, samples, slot, out + (slot.dimension - run.front().dimension) * stride, stride);
+}
 
 }  // namespace koksma

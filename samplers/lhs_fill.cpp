@@ -15,17 +15,19 @@ void fill_lhs(const PixelKeys& keys, std::uint64_t order_keys, std::uint32_t n, 
     const std::uint32_t dimensions = dimension_count(run);
     const StrataPack strata(n);
     SetBlock block;
-    PermutationTable order;
-    BlockArray strata_of;
+    PermutationTable orders[2];
+    BlockArray strata_of[2];
     for (std::size_t begin = 0; begin < samples.size(); begin += kBlockSamples, out += kBlockSamples) {
         block.read_set(samples.subspan(begin, std::min(kBlockSamples, samples.size() - begin)), keys, order_keys, n);
-        float* row = out;
-        for (std::uint32_t k = 0; k < dimensions; ++k, row += stride) {
-            const std::uint32_t d = run.front().dimension + k;
-            order.set(block, block.slots, d, n);
-            order.images(block, block.index_in_set, strata_of.of);
-            for (std::size_t i = 0; i < block.count; i += kPack)
-                strata.place(UInt32::load(strata_of.of + i), keyed_hash(block.jitter.pack(i), d)).store_first(block.lanes(i), row + i);
+        for (std::uint32_t first = 0; first < dimensions; first += 2) {
+            const std::uint32_t many = std::min(2u, dimensions - first), d = run.front().dimension + first;
+            for (std::uint32_t k = 0; k < many; ++k) orders[k].set(block, block.slots, d + k, n);
+            PermutationTable::images_of(many, block, orders, block.index_in_set, strata_of);
+            for (std::uint32_t k = 0; k < many; ++k) {
+                float* row = out + (first + k) * stride;
+                for (std::size_t i = 0; i < block.count; i += kPack)
+                    strata.place(UInt32::load(strata_of[k].of + i), keyed_hash(block.jitter.pack(i), d + k)).store_first(block.lanes(i), row + i);
+            }
         }
     }
 }
@@ -36,6 +38,7 @@ KOKSMA_MATHS_END
 namespace koksma {
 HWY_EXPORT(fill_lhs);
 void LhsSampler::fill(std::span<const SampleId> samples, SlotRun run, float* out, std::size_t stride) const noexcept {
+    if (count_ > kMostStrataOfPacks) return fill_points(*this, samples, run, out, stride);
     HWY_DYNAMIC_DISPATCH(fill_lhs)(keys_, kOrderKeys, count_, samples, run, out, stride);
 }
 }  // namespace koksma

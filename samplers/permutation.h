@@ -11,6 +11,9 @@ namespace koksma {
 /// by up to 800 standard deviations (n = 16).
 inline constexpr int kPermuteRounds = 10;
 
+/// The largest sets that fills permute in packs, in 16 bits. Larger ones are filled sample by sample.
+inline constexpr std::uint64_t kMostStrataOfPacks = 1u << 16;
+
 /// The image of i under the permutation of [0, n) that a key selects.
 /// Bijective rounds (add, multiply by an odd number, xor-shift) on the smallest power of two that holds n, repeated until
 /// the value falls below n; then a rotation by a number of its own, which makes each image uniform over [0, n).

@@ -1,5 +1,7 @@
 // permutation.h and strata for packs. No include guard: read anew for each instruction set, after fill_packs.h and the two.
 
+#include <koksma/simd/half_words.h>
+
 KOKSMA_MATHS_BEGIN
 
 /// The numbers of all rounds of `permute` at once: that of round r is key * times + plus.
@@ -19,69 +21,114 @@ struct PermuteJumps {
 };
 inline constexpr PermuteJumps kPermuteJumps;
 
-/// The permutations of [0, n) of the pixels of a block, taken apart into the numbers of their rounds.
+/// One number a sample of a block.
+struct BlockArray {
+    alignas(64) std::uint32_t of[kBlockSamples];
+};
+
+/// The permutations of [0, n), n up to kMostStrataOfPacks (permutation.h), of the pixels of a block, taken apart into the numbers of their rounds.
 class PermutationTable {
 public:
     /// @param keys     of the pixels
     /// @param counter  the permutation of a pixel is that of derive_key(its key, counter)
     HWY_INLINE void set(const SampleBlock& block, const PixelKeyArray& keys, std::uint64_t counter, std::uint32_t n) {
         n_ = n;
-        if (n <= 1) return;
-        mask_ = 0xffffffffu >> std::countl_zero(n - 1);
-        shift_ = (std::bit_width(n - 1) + 1) / 2;
+        const int bits = std::bit_width(n - 1);
+        mask_ = (1u << bits) - 1;
+        shift_ = (bits + 1) / 2;
         for (std::size_t p = 0; p < block.pixels; ++p) {
             const Key key = derive_key(keys[p], counter);
             for (int round = 0; round < kPermuteRounds; ++round) {
                 const std::uint64_t k = join_key(key) * kPermuteJumps[round].times + kPermuteJumps[round].plus;
-                plus_[round].of[p] = static_cast<std::uint32_t>(k >> 32);
-                times_[round].of[p] = static_cast<std::uint32_t>(k >> 1) | 1u;
+                plus_[round].of[p] = doubled(k >> 32);
+                times_[round].of[p] = doubled((k >> 1) | 1u);
             }
             rotation_.of[p] = static_cast<std::uint32_t>((std::uint64_t{koksma::keyed_hash(key, 0)} * n) >> 32);
         }
     }
-    /// The images of the numbers x, below n, of a block under the permutations of its pixels. The rounds are one long chain of
-    /// multiplications, so four packs go through them at a time.
-    HWY_INLINE void images(const SampleBlock& block, const std::uint32_t* x, std::uint32_t* y) const {
+    /// The images y of the numbers x, below n, of a block under each table's permutations. The rounds of a permutation are one
+    /// long chain of multiplications: four packs of samples and two tables together hide what each waits for.
+    template <int tables>
+    static HWY_INLINE void images(const SampleBlock& block, const PermutationTable* table, const BlockArray* const (&x)[tables],
+                                  BlockArray* const (&y)[tables]) {
         for (std::size_t i = 0; i < block.count; i += 4 * kPack) {
             const std::size_t last = (block.count - 1) / kPack * kPack;
             const std::size_t at[4] = {i, std::min(i + kPack, last), std::min(i + 2 * kPack, last), std::min(i + 3 * kPack, last)};
             bool one_pixel = true;
-            for (int j = 0; j < 4; ++j) one_pixel = one_pixel && block.lane[at[j] + kPack - 1] == 0;
-            if (n_ <= 1)
-                for (int j = 0; j < 4; ++j) UInt32(0u).store(y + at[j]);
-            else if (one_pixel)
-                images_at<true>(block, at, x, y);
+            for (int j = 0; j < 4; ++j) one_pixel = one_pixel && block.lane[at[j] + kPack - 1] == 0 && block.first[at[j] / kPack] == block.first[i / kPack];
+            if (one_pixel)
+                images_at<true, tables>(block, at, table, x, y);
             else
-                images_at<false>(block, at, x, y);
+                images_at<false, tables>(block, at, table, x, y);
         }
     }
 
-private:
-    template <bool one_pixel>
-    [[nodiscard]] static HWY_INLINE UInt32 number(const SampleBlock& block, const PixelTable& t, std::size_t i) {
-        return one_pixel ? UInt32(t.of[block.first[i / kPack]]) : block.of_pixel(t, i);
+    /// The same of one array under one or two tables.
+    static HWY_INLINE void images_of(std::size_t tables, const SampleBlock& block, const PermutationTable (&table)[2], const BlockArray& x, BlockArray (&y)[2]) {
+        if (tables == 2)
+            images<2>(block, table, {&x, &x}, {&y[0], &y[1]});
+        else
+            images<1>(block, table, {&x}, {&y[0]});
     }
+
+private:
+    [[nodiscard]] static HWY_INLINE std::uint32_t doubled(std::uint64_t x) { return static_cast<std::uint32_t>(x & 0xffffu) * 0x10001u; }
+    /// Four packs of samples.
+    struct Four {
+        HalfWords a, b;
+        [[nodiscard]] static HWY_INLINE Four of(const UInt32 (&x)[4]) { return {HalfWords::of(x[0], x[1]), HalfWords::of(x[2], x[3])}; }
+        HWY_INLINE void split(UInt32 (&x)[4]) const { x[0] = a.first(), x[1] = a.second(), x[2] = b.first(), x[3] = b.second(); }
+    };
+    /// What a table of doubled numbers has for the pixels of four packs.
     template <bool one_pixel>
-    HWY_INLINE void rounds(const SampleBlock& block, const std::size_t (&at)[4], UInt32 (&x)[4]) const {
+    [[nodiscard]] static HWY_INLINE Four numbers(const SampleBlock& block, const PixelTable& t, const std::size_t (&at)[4]) {
+        if constexpr (one_pixel) {
+            const UInt32 x = t.of[block.first[at[0] / kPack]];
+            return {HalfWords::of_doubled(x, x), HalfWords::of_doubled(x, x)};
+        } else {
+            return {HalfWords::of_doubled(block.of_pixel(t, at[0]), block.of_pixel(t, at[1])),
+                    HalfWords::of_doubled(block.of_pixel(t, at[2]), block.of_pixel(t, at[3]))};
+        }
+    }
+    template <bool one_pixel, int tables>
+    static HWY_INLINE void rounds(const SampleBlock& block, const std::size_t (&at)[4], const PermutationTable* table, Four* x) {
         for (int round = 0; round < kPermuteRounds; ++round)
-            for (int j = 0; j < 4; ++j) {
-                x[j] = ((x[j] + number<one_pixel>(block, plus_[round], at[j])) * number<one_pixel>(block, times_[round], at[j])) & UInt32(mask_);
-                x[j] = x[j] ^ shift_right(x[j], shift_);
+            for (int t = 0; t < tables; ++t) {
+                const UInt32 bits = table[t].mask_ * 0x10001u;
+                const HalfWords mask = HalfWords::of_doubled(bits, bits);
+                const Four plus = numbers<one_pixel>(block, table[t].plus_[round], at), times = numbers<one_pixel>(block, table[t].times_[round], at);
+                x[t].a = ((x[t].a + plus.a) * times.a) & mask;
+                x[t].b = ((x[t].b + plus.b) * times.b) & mask;
+                x[t].a = x[t].a ^ shift_right(x[t].a, table[t].shift_);
+                x[t].b = x[t].b ^ shift_right(x[t].b, table[t].shift_);
             }
     }
-    template <bool one_pixel>
-    HWY_INLINE void images_at(const SampleBlock& block, const std::size_t (&at)[4], const std::uint32_t* from, std::uint32_t* to) const {
-        const UInt32 n = n_, last = n_ - 1;
-        UInt32 x[4] = {UInt32::load(from + at[0]), UInt32::load(from + at[1]), UInt32::load(from + at[2]), UInt32::load(from + at[3])};
-        rounds<one_pixel>(block, at, x);
-        while (any(x[0] > last || x[1] > last || x[2] > last || x[3] > last)) {
-            UInt32 further[4] = {x[0], x[1], x[2], x[3]};
-            rounds<one_pixel>(block, at, further);
-            for (int j = 0; j < 4; ++j) x[j] = select(x[j] > last, further[j], x[j]);
+    template <bool one_pixel, int tables>
+    static HWY_INLINE void images_at(const SampleBlock& block, const std::size_t (&at)[4], const PermutationTable* table,
+                                     const BlockArray* const (&from)[tables], BlockArray* const (&to)[tables]) {
+        UInt32 image[tables][4];
+        Four x[tables];
+        for (int t = 0; t < tables; ++t) {
+            for (int j = 0; j < 4; ++j) image[t][j] = UInt32::load(from[t]->of + at[j]);
+            x[t] = Four::of(image[t]);
         }
-        for (int j = 0; j < 4; ++j) {
-            const UInt32 y = x[j] + number<one_pixel>(block, rotation_, at[j]);
-            min(y, y - n).store(to + at[j]);
+        rounds<one_pixel, tables>(block, at, table, x);
+        for (int t = 0; t < tables; ++t) {
+            const std::uint32_t n = table[t].n_;
+            const UInt32 last = n - 1;
+            x[t].split(image[t]);
+            while (n <= table[t].mask_ && any(image[t][0] > last || image[t][1] > last || image[t][2] > last || image[t][3] > last)) {
+                Four further = Four::of(image[t]);
+                rounds<one_pixel, 1>(block, at, table + t, &further);
+                UInt32 next[4];
+                further.split(next);
+                for (int j = 0; j < 4; ++j) image[t][j] = select(image[t][j] > last, next[j], image[t][j]);
+            }
+            const PixelTable& rotation = table[t].rotation_;
+            for (int j = 0; j < 4; ++j) {
+                const UInt32 y = image[t][j] + (one_pixel ? UInt32(rotation.of[block.first[at[0] / kPack]]) : block.of_pixel(rotation, at[j]));
+                min(y, y - UInt32(n)).store(to[t]->of + at[j]);
+            }
         }
     }
     std::uint32_t n_, mask_;
@@ -89,22 +136,15 @@ private:
     PixelTable plus_[kPermuteRounds], times_[kPermuteRounds], rotation_;
 };
 
-/// One number a sample of a block.
-struct BlockArray {
-    alignas(64) std::uint32_t of[kBlockSamples];
-};
-
 /// x / n and x mod n of a block, for x below 2^21: (x + 1/2) / n is further from an integer than the rounding of the product.
-HWY_INLINE void divide(const SampleBlock& block, const std::uint32_t* x, std::uint32_t n, std::uint32_t* quotient, std::uint32_t* remainder) {
+HWY_INLINE void divide(const SampleBlock& block, const BlockArray& x, std::uint32_t n, BlockArray& quotient, BlockArray& remainder) {
     const Float inverse = 1.0f / static_cast<float>(n);
     for (std::size_t i = 0; i < block.count; i += kPack) {
-        const UInt32 number = UInt32::load(x + i), q = as_uint(to_int((to_real(as_int(number)) + Float(0.5f)) * inverse));
-        q.store(quotient + i);
-        (number - q * UInt32(n)).store(remainder + i);
+        const UInt32 number = UInt32::load(x.of + i), q = as_uint(to_int((to_real(as_int(number)) + Float(0.5f)) * inverse));
+        q.store(quotient.of + i);
+        (number - q * UInt32(n)).store(remainder.of + i);
     }
 }
-inline constexpr std::uint64_t kMostStrataOfPacks = 1u << 21;
-
 /// n equal strata of [0, 1), and the jitter within.
 struct StrataPack {
     std::uint32_t n;
@@ -115,13 +155,13 @@ struct StrataPack {
     [[nodiscard]] HWY_INLINE Float place(UInt32 stratum, UInt32 jitter) const {
         if (bits < 0) return stratum_float(stratum, n, scale, fraction(jitter));
         // All steps of stratum_float are exact: digits of the stratum, then digits of the jitter.
-        return unit_float24(stratum * UInt32(1u << (24 - bits)) + shift_right(jitter, 8 + bits));
+        return unit_float24(shift_left(stratum, UInt32(static_cast<std::uint32_t>(24 - bits))) + shift_right(jitter, UInt32(static_cast<std::uint32_t>(8 + bits))));
     }
 };
 
 /// What samplers of kind `set` need of a block: indices modulo spp, and the keys of the jitters.
 struct SetBlock : SampleBlock {
-    alignas(64) std::uint32_t index_in_set[kBlockSamples];
+    BlockArray index_in_set;
     SampleKeyArray jitter;
     PixelKeyArray slots;  ///< derive_key(key of the pixel, slot_keys)
 
@@ -131,10 +171,10 @@ struct SetBlock : SampleBlock {
         derive_sample_keys(keys, jitter);
         derive_pixel_keys(keys, slot_keys, slots);
         const bool modulo = SampleBlock::any >= count_in_set;  // or less
-        for (std::size_t i = 0; i < kBlockSamples; ++i) index_in_set[i] = low[i];
+        for (std::size_t i = 0; i < kBlockSamples; ++i) index_in_set.of[i] = low[i];
         if (modulo)
-            for (std::size_t i = 0; i < count; ++i) index_in_set[i] = static_cast<std::uint32_t>(index[i] % count_in_set);
-        for (std::size_t i = count; i % kPack != 0; ++i) index_in_set[i] = index_in_set[i - 1];
+            for (std::size_t i = 0; i < count; ++i) index_in_set.of[i] = static_cast<std::uint32_t>(index[i] % count_in_set);
+        for (std::size_t i = count; i % kPack != 0; ++i) index_in_set.of[i] = index_in_set.of[i - 1];
     }
 };
 

@@ -90,7 +90,7 @@ void check_fills(const std::string& target) {
             std::vector<std::uint8_t> arities;
             const std::uint32_t dimensions = std::min<std::uint32_t>(info.max_dimensions, 4096) + 8;
             for (std::uint32_t d = 0; d < dimensions; d += arities.back()) arities.push_back(static_cast<std::uint8_t>(round % 3 == 2 ? 1 + random() % 2 : 1 + round % 3));
-            const std::uint64_t counts[] = {64, 1, 2, 3, 7, 16, 17, 60, 100, 101, 1024, 4096, 5000, 65536};
+            const std::uint64_t counts[] = {64, 1, 2, 3, 7, 16, 17, 60, 100, 101, 1024, 4096, 5000, 65535, 65536, 65537};
             SamplingPlan plan{.film_width = 2048, .film_height = 2048, .spp = std::min(counts[random() % std::size(counts)], info.max_samples), .seed = random(), .layout = plain_layout(arities)};
             const auto source = factory->bind(plan);
             REQUIRE(source->vectorised());

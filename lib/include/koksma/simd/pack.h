@@ -176,6 +176,7 @@ template <int n>
 [[nodiscard]] HWY_INLINE UInt32 shift_right(UInt32 x, int n) { return hn::ShiftRightSame(x.raw, n); }
 /// x >> n, each lane by its own number, below 32.
 [[nodiscard]] HWY_INLINE UInt32 shift_right(UInt32 x, UInt32 n) { return hn::Shr(x.raw, n.raw); }
+[[nodiscard]] HWY_INLINE UInt32 shift_left(UInt32 x, UInt32 n) { return hn::Shl(x.raw, n.raw); }
 [[nodiscard]] HWY_INLINE UInt32 min(UInt32 a, UInt32 b) { return hn::Min(a.raw, b.raw); }
 /// table[index] of each lane, from one pack to another. Every index is below kLanes.
 [[nodiscard]] HWY_INLINE UInt32 lookup(UInt32 table, UInt32 index) {
