@@ -130,11 +130,6 @@ private:
             for (std::size_t at = first; at < first + kGroup && at < count; at += kPack) step(at, Mask::first(count - at));
         };
         if (!sorted_) each([&](std::size_t at, Mask active) { trace_pack(at, active); });
-        if (!order_.pays())
-            each([&](std::size_t at, Mask active) {
-                const Int32 geometry = Int32::load(geometry_ + at);
-                prefetch_vertices<kEffects>(scene_, active & (geometry != Int32(-1)), geometry, Int32::load(primitive_ + at));
-            });
         if constexpr (kEffects.has(Effect::environment) && kSmooth) {
             sky_drawn_ = sky_.usable() && !last_vertex_ && numbers_.are_laid_out();
             if (sky_drawn_) {

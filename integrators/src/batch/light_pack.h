@@ -12,31 +12,35 @@ struct LightSamplePack {
 /// A scene's only light, if it is one or two triangles without textures: nothing to gather then.
 struct SingleLight {
     bool usable = false, mesh = false;
-    std::int32_t word = 0;  ///< of its geometry's record
-    Vec3f vertices[2][3], normals[2][3], ng[2];
+    TriangleRow rows[2];
+    ShadingRow shading_rows[2];
     explicit SingleLight(const Scene& scene) {
         if (scene.lights.size() != 1) return;
         const Light& light = scene.lights[0];
         const std::size_t count = light.kind == LightKind::parallelogram ? 2 : light.kind == LightKind::mesh ? light.triangles.size() : 0;
         if (count < 1 || count > 2 || light.radiance.index >= 0) return;
-        const GeometryRecord& g = scene.geometries[light.geometry];
-        for (std::size_t t = 0; t < 2; ++t)
-            for (std::size_t v = 0; v < 3; ++v) {
-                const std::uint32_t index = scene.triangles[g.first + (t < count ? t : 0)][v];
-                vertices[t][v] = scene.positions[index];
-                if (g.has_normals) normals[t][v] = scene.normals[index];
-            }
-        for (std::size_t t = 0; t < 2; ++t) ng[t] = koksma::normal_of_triangle(vertices[t][0], vertices[t][1], vertices[t][2]);
-        word = (g.flip ? 1 << 8 : 0) | (g.has_normals ? 1 << 16 : 0);
+        const std::size_t first = scene.geometries[light.geometry].first;
+        for (std::size_t t = 0; t < 2; ++t) {
+            rows[t] = scene.triangle_rows[first + (t < count ? t : 0)];
+            if (!scene.shading_rows.empty()) shading_rows[t] = scene.shading_rows[first + (t < count ? t : 0)];
+        }
         mesh = light.kind == LightKind::mesh;
         usable = true;
     }
     [[nodiscard]] TrianglePack triangle(Int32 which) const {
-        TrianglePack t;
-        t.v0 = of_triangle(which, vertices[0][0], vertices[1][0]);
-        t.v1 = of_triangle(which, vertices[0][1], vertices[1][1]);
-        t.v2 = of_triangle(which, vertices[0][2], vertices[1][2]);
-        return t;
+        const auto of = [&](Vec3f TriangleRow::*member) { return of_triangle(which, rows[0].*member, rows[1].*member); };
+        return {which,
+                of(&TriangleRow::v0),
+                of(&TriangleRow::v1),
+                of(&TriangleRow::v2),
+                of(&TriangleRow::ng),
+                Int32(static_cast<std::int32_t>(rows[0].flags)),  // those that are used are the geometry's
+                Int32(static_cast<std::int32_t>(rows[0].material)),
+                Int32(rows[0].light)};
+    }
+    [[nodiscard]] ShadingPack shading(Int32 which) const {
+        const auto of = [&](Vec3f ShadingRow::*member) { return of_triangle(which, shading_rows[0].*member, shading_rows[1].*member); };
+        return {of(&ShadingRow::n0), of(&ShadingRow::n1), of(&ShadingRow::n2), {}, {}, {}};  // without textures: nobody asks where
     }
     [[nodiscard]] static Vec3<Float> of_triangle(Int32 which, Vec3f first, Vec3f second) {
         return select<Float>(which == Int32(1), Vec3<Float>::splat(second), Vec3<Float>::splat(first));
@@ -143,20 +147,16 @@ template <EffectSet kEffects>
         b.x = select(mesh, m.x, b.x);
         b.y = select(mesh, m.y, b.y);
     }
-    const GeometryRecord* records = scene.geometries.data();
     SurfacePack s;
     Float area;
     if (single.usable) {
-        const Light& only = lights[0];
-        const auto normal = [&](int vertex, Mask) { return SingleLight::of_triangle(triangle, single.normals[0][vertex], single.normals[1][vertex]); };
-        const Vec3<Float> ng = SingleLight::of_triangle(triangle, single.ng[0], single.ng[1]);
-        triangle_surface_pack<kEffects>(scene, single.triangle(triangle), Int32(single.word), active, b, ng, normal, s);
-        area = Float(only.area);
+        triangle_surface_pack<kEffects>(single.triangle(triangle), active, b, [&] { return single.shading(triangle); }, s);
+        area = Float(lights[0].area);
     } else {
         const Int32 geometry = gather_int(lights, offsetof(Light, geometry), light);
-        const TrianglePack t = gather_triangle(scene, gather_int(records, offsetof(GeometryRecord, first), geometry) + triangle);
-        triangle_surface_pack<kEffects>(scene, t, gather_int(records, 0, geometry), active, b, normal_of_triangle_pack(t, active),
-                                        GatheredNormals{scene, t}, s);
+        const Int32 which = gather_int(scene.geometries.data(), offsetof(GeometryRecord, first), geometry) + triangle;
+        triangle_surface_pack<kEffects>(
+            load_triangles(scene, which), scene.shading_rows.empty() ? Mask{} : active, b, [&] { return load_shading<kEffects>(scene, which); }, s);
         area = gather_float(lights, offsetof(Light, area), light);
         if constexpr (kEffects.has(Effect::many_lights)) area = area_of_triangles(scene, active, choice, area);
     }

@@ -1,5 +1,7 @@
 // Packs from the scene's arrays and from queues. Read once for each instruction set (no guard).
 
+#include <koksma/simd/rows.h>
+
 KOKSMA_MATHS_BEGIN
 
 using FloatLanes = float[kLanes];
@@ -77,7 +79,7 @@ void prefetch(const T* base, Mask m, Int32 index) {
 [[nodiscard]] inline Int32 first_lane(Mask m, Int32 v) {
     alignas(4 * kLanes) IntLanes lanes;
     v.store(lanes);
-    return Int32(lanes[std::countr_zero(lane_bits(m))]);
+    return Int32(lanes[std::countr_zero(lane_bits(m)) & (kLanes - 1)]);  // some compilers see the mask that cannot be
 }
 
 /// A mask made of bits.

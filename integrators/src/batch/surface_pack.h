@@ -59,29 +59,46 @@ struct SurfacePack {
     Float time;
 };
 
-static_assert(sizeof(GeometryRecord) == 16 && offsetof(GeometryRecord, kind) == 0 && offsetof(GeometryRecord, flip) == 1 &&
-              offsetof(GeometryRecord, has_normals) == 2 && offsetof(GeometryRecord, has_uvs) == 3 && std::endian::native == std::endian::little);
-
-/// One bit of the first word of a GeometryRecord, whose bytes are kind, flip, has_normals, has_uvs.
+/// One bit of flags, one in each byte.
 template <int byte>
-[[nodiscard]] Mask flag(Int32 word) {
-    return (word & Int32(1 << (8 * byte))) != Int32(0);
+[[nodiscard]] Mask flag(Int32 flags) {
+    return (flags & Int32(1 << (8 * byte))) != Int32(0);
 }
 
+/// As koksma::TriangleRow.
 struct TrianglePack {
-    Int32 which, index[3];
-    Vec3<Float> v0, v1, v2;
+    Int32 which;
+    Vec3<Float> v0, v1, v2, ng;
+    Int32 flags, material, light;
 };
-[[nodiscard]] inline TrianglePack gather_triangle(const Scene& scene, Int32 triangle) {
-    const std::int32_t* indices = reinterpret_cast<const std::int32_t*>(scene.triangles.data());
-    const Int32 at = triangle * Int32(3);
-    TrianglePack t;
-    t.which = triangle;
-    for (int i = 0; i < 3; ++i) t.index[i] = gather(indices, at + Int32(i));
-    t.v0 = gather_vector(scene.positions.data(), 0, t.index[0]);
-    t.v1 = gather_vector(scene.positions.data(), 0, t.index[1]);
-    t.v2 = gather_vector(scene.positions.data(), 0, t.index[2]);
-    return t;
+[[nodiscard]] inline TrianglePack load_triangles(const Scene& scene, Int32 which) {
+    alignas(4 * kLanes) IntLanes rows;
+    which.store(rows);
+    constexpr int kWords = sizeof(TriangleRow) / 4;
+    Float w[kWords];
+    load_rows(reinterpret_cast<const float*>(scene.triangle_rows.data()), kWords, rows, w);
+    static_assert(offsetof(TriangleRow, v1) == 12 && offsetof(TriangleRow, v2) == 24 && offsetof(TriangleRow, ng) == 36 &&
+                  offsetof(TriangleRow, flags) == 48 && offsetof(TriangleRow, material) == 52 && offsetof(TriangleRow, light) == 56);
+    return {which, {w[0], w[1], w[2]}, {w[3], w[4], w[5]}, {w[6], w[7], w[8]}, {w[9], w[10], w[11]}, bits_of(w[12]), bits_of(w[13]), bits_of(w[14])};
+}
+
+/// As koksma::ShadingRow.
+struct ShadingPack {
+    Vec3<Float> n0, n1, n2;
+    Vec2<Float> uv0, uv1, uv2;
+};
+template <EffectSet kEffects>
+[[nodiscard]] ShadingPack load_shading(const Scene& scene, Int32 which) {
+    alignas(4 * kLanes) IntLanes rows;
+    which.store(rows);
+    constexpr bool kUvs = kEffects.has(Effect::texture) || kEffects.has(Effect::anisotropic);
+    constexpr std::size_t kStride = sizeof(ShadingRow) / 4;
+    Float w[kUvs ? 16 : 12];
+    load_rows(reinterpret_cast<const float*>(scene.shading_rows.data()), kStride, rows, w);
+    static_assert(offsetof(ShadingRow, n1) == 12 && offsetof(ShadingRow, n2) == 24 && offsetof(ShadingRow, uv0) == 36 && offsetof(ShadingRow, uv2) == 52);
+    ShadingPack s{{w[0], w[1], w[2]}, {w[3], w[4], w[5]}, {w[6], w[7], w[8]}, {}, {}, {}};
+    if constexpr (kUvs) s.uv0 = {w[9], w[10]}, s.uv1 = {w[11], w[12]}, s.uv2 = {w[13], w[14]};
+    return s;
 }
 
 /// Of the lanes that met a mesh. @param hit  lanes that met something
@@ -91,60 +108,29 @@ struct TrianglePack {
     triangle = gather_int(records, offsetof(GeometryRecord, first), g) + primitive;
     return hit & ((gather_int(records, 0, g) & Int32(0xff)) == Int32(static_cast<int>(GeometryKind::mesh)));
 }
-/// Has fetched into the cache what gather_triangle will read first.
+/// Has fetched into the cache what surface_pack will read.
 inline void prefetch_triangles(const Scene& scene, Mask hit, Int32 geometry, Int32 primitive) {
     Int32 triangle;
     const Mask mesh = met_mesh(scene, hit, geometry, primitive, triangle);
-    prefetch(scene.triangles.data(), mesh, triangle);
-}
-/// And once that is there, what it reads then.
-template <EffectSet kEffects>
-void prefetch_vertices(const Scene& scene, Mask hit, Int32 geometry, Int32 primitive) {
-    Int32 triangle;
-    const Mask mesh = met_mesh(scene, hit, geometry, primitive, triangle);
-    const Int32 at = select(mesh, triangle, Int32(0)) * Int32(3);
-    if (!any(mesh)) return;
-    for (int i = 0; i < 3; ++i) {
-        const Int32 vertex = gather(reinterpret_cast<const std::int32_t*>(scene.triangles.data()), at + Int32(i));
-        prefetch(scene.positions.data(), mesh, vertex);
-        if constexpr (kEffects.has(Effect::shading_normals))
-            if (!scene.normals.empty()) prefetch(scene.normals.data(), mesh, vertex);
-    }
+    prefetch(scene.triangle_rows.data(), mesh, triangle);
+    if (!scene.shading_rows.empty()) prefetch(scene.shading_rows.data(), mesh, triangle);
 }
 
-/// As koksma::normal_of_triangle.
-[[nodiscard]] inline Vec3<Float> normal_of_triangle_pack(const TrianglePack& t, Mask active) {
-    const Vec3<Float> regular = triangle_normal(t.v0, t.v1, t.v2);
-    const Mask needle = active & is_needle(t.v0, t.v1, t.v2);
-    if (!any(needle)) return regular;
-    const VectorLanes v0(t.v0), v1(t.v1), v2(t.v2);
-    VectorLanes n(regular);
-    for_lanes(needle, [&](int i) { n.set(i, normal_of_needle(v0[i], v1[i], v2[i], n[i])); });
-    return n.pack();
-}
-
-/// The vertices' normals, of lanes that have some. Others read entry 0, which is there when any mesh has normals.
-struct GatheredNormals {
-    const Scene& scene;
-    const TrianglePack& t;
-    [[nodiscard]] Vec3<Float> operator()(int vertex, Mask m) const { return gather_vector(scene.normals.data(), 0, select(m, t.index[vertex], Int32(0))); }
-};
-
-/// @param word    first word of the geometries' records
-/// @param ng      the triangles' normals
-/// @param normal  called with a vertex, 0 to 2, and the lanes that have normals
-/// @param s       gets all but what its geometry says
-template <EffectSet kEffects, class Normal>
-void triangle_surface_pack(const Scene& scene, const TrianglePack& t, Int32 word, Mask active, Vec2<Float> b, const Vec3<Float>& ng,
-                           const Normal& normal, SurfacePack& s) {
+/// @param b        barycentrics
+/// @param shading  called for what the vertices carry, if any lane needs it
+/// @param s        gets all but what its geometry says
+template <EffectSet kEffects, class Shading>
+void triangle_surface_pack(const TrianglePack& t, Mask active, Vec2<Float> b, const Shading& shading, SurfacePack& s) {
     const TrianglePointOf<Float> point = triangle_point(t.v0, t.v1, t.v2, b);
     s.p = point.p;
     s.p_error = point.p_error;
-    s.ng = s.n = ng;
+    s.ng = s.n = t.ng;
     if constexpr (kEffects.has(Effect::shading_normals))
-        if (const Mask m = active & flag<2>(word); any(m))
-            assign<Float>(m, s.n, interpolated_normal(normal(0, m), normal(1, m), normal(2, m), point.b0, b, s.ng));
-    if (const Mask m = flag<1>(word); any(m)) {
+        if (const Mask m = active & flag<2>(t.flags); any(m)) {
+            const ShadingPack vertices = shading();
+            assign<Float>(m, s.n, interpolated_normal(vertices.n0, vertices.n1, vertices.n2, point.b0, b, s.ng));
+        }
+    if (const Mask m = flag<1>(t.flags); any(m)) {
         assign<Float>(m, s.ng, -s.ng);
         assign<Float>(m, s.n, -s.n);
     }
@@ -152,15 +138,11 @@ void triangle_surface_pack(const Scene& scene, const TrianglePack& t, Int32 word
         s.uv.x = b.x;
         s.uv.y = b.y;
         s.dpdu = Vec3<Float>(Float(0.0f));
-        if (const Mask m = active & flag<3>(word); any(m)) {
-            const auto uv = [&](int i) {
-                const Int32 index = select(m, t.index[i], Int32(0));
-                return Vec2<Float>{gather_float(scene.uvs.data(), 0, index), gather_float(scene.uvs.data(), 4, index)};
-            };
-            const Vec2<Float> uv0 = uv(0), uv1 = uv(1), uv2 = uv(2);
-            s.uv.x = select(m, uv0.x * point.b0 + uv1.x * b.x + uv2.x * b.y, s.uv.x);
-            s.uv.y = select(m, uv0.y * point.b0 + uv1.y * b.x + uv2.y * b.y, s.uv.y);
-            if constexpr (kEffects.has(Effect::anisotropic)) assign<Float>(m, s.dpdu, direction_of_u(t.v0, t.v1, t.v2, uv0, uv1, uv2));
+        if (const Mask m = active & flag<3>(t.flags); any(m)) {
+            const ShadingPack v = shading();
+            s.uv.x = select(m, v.uv0.x * point.b0 + v.uv1.x * b.x + v.uv2.x * b.y, s.uv.x);
+            s.uv.y = select(m, v.uv0.y * point.b0 + v.uv1.y * b.x + v.uv2.y * b.y, s.uv.y);
+            if constexpr (kEffects.has(Effect::anisotropic)) assign<Float>(m, s.dpdu, direction_of_u(t.v0, t.v1, t.v2, v.uv0, v.uv1, v.uv2));
         }
     }
     if constexpr (kEffects.has(Effect::mesh_attribute)) {
@@ -214,19 +196,19 @@ template <EffectSet kEffects>
         kEffects.has(Effect::analytic_shape) || kEffects.has(Effect::instancing);  // some points are computed one by one
     const GeometryRecord* records = scene.geometries.data();
     const Int32 g = select(active, geometry, Int32(0));
-    const Int32 word = gather_int(records, 0, g);
     Mask meshes = active;
     if constexpr (kEffects.has(Effect::analytic_shape))
-        meshes = active & ((word & Int32(0xff)) == Int32(static_cast<int>(GeometryKind::mesh)));
+        meshes = active & ((gather_int(records, 0, g) & Int32(0xff)) == Int32(static_cast<int>(GeometryKind::mesh)));
     if constexpr (kEffects.has(Effect::instancing)) meshes = meshes & (instance == Int32(-1));
     SurfacePack s;
     if (!kAlone || any(meshes)) {
         const Int32 triangle = select(meshes, gather_int(records, offsetof(GeometryRecord, first), g) + primitive, Int32(0));
-        const TrianglePack t = gather_triangle(scene, triangle);
-        triangle_surface_pack<kEffects>(scene, t, word, meshes, barycentrics(t.v0, t.v1, t.v2, o, d), normal_of_triangle_pack(t, meshes),
-                                        GatheredNormals{scene, t}, s);
-        if (const Mask coarse = meshes & (is_coarse(s.p, s.p_error, o) | is_needle(t.v0, t.v1, t.v2)); any(coarse))
-            refine(t, o, d, coarse, s);
+        const TrianglePack t = load_triangles(scene, triangle);
+        triangle_surface_pack<kEffects>(
+            t, scene.shading_rows.empty() ? Mask{} : meshes, barycentrics(t.v0, t.v1, t.v2, o, d), [&] { return load_shading<kEffects>(scene, triangle); }, s);
+        if (const Mask coarse = meshes & (is_coarse(s.p, s.p_error, o) | flag<0>(t.flags)); any(coarse)) refine(t, o, d, coarse, s);
+        s.material = t.material;
+        s.light = t.light;
     }
     if constexpr (kAlone)
         if (const Mask others = active & !meshes; any(others)) {
@@ -244,6 +226,8 @@ template <EffectSet kEffects>
                 lanes.set(i, koksma::surface_at<kEffects>(scene, ray, hit));
             });
             lanes.get(s);
+            s.material = gather_int(records, offsetof(GeometryRecord, material), g);
+            s.light = gather_int(records, offsetof(GeometryRecord, light), g);
         }
     if constexpr (kEffects.has(Effect::instancing)) {
         s.instance = instance;
@@ -251,8 +235,6 @@ template <EffectSet kEffects>
     }
     s.geometry = g;
     s.primitive = primitive;
-    s.material = gather_int(records, offsetof(GeometryRecord, material), g);
-    if constexpr (kEffects.has(Effect::area_light)) s.light = gather_int(records, offsetof(GeometryRecord, light), g);
     return s;
 }
 

@@ -140,6 +140,8 @@ Scene compile(const SceneDescription& description) {
     detail::compile_media(scene, origin);
     build_accelerator(scene);
     detail::compile_lights(scene, origin);
+    scene.triangle_rows = triangle_rows(scene);
+    scene.shading_rows = shading_rows(scene);
     return scene;
 }
 

@@ -13,6 +13,7 @@
 #include <koksma/scene/medium/medium_record.h>
 #include <koksma/scene/placement.h>
 #include <koksma/scene/texture.h>
+#include <koksma/scene/triangle_rows.h>
 
 #include <map>
 #include <memory>
@@ -118,6 +119,8 @@ struct Scene {
     std::vector<Vec3f> positions, normals;
     std::vector<glm::vec2> uvs;
     std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices into positions, normals and uvs alike
+    std::vector<TriangleRow> triangle_rows;  ///< the same, as packs read them
+    std::vector<ShadingRow> shading_rows;
     std::vector<AnalyticSphere> spheres;
     std::vector<AnalyticDisk> disks;
     std::vector<AnalyticCylinder> cylinders;
