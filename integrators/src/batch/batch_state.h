@@ -20,9 +20,11 @@ using FloatRow = float[kBatchRow];
 using IntRow = std::int32_t[kBatchRow];
 
 /// A vector a path, or a ray.
-struct alignas(64) VectorRows {
-    FloatRow x, y, z;
+template <std::size_t kRow>
+struct alignas(64) VectorRowsOf {
+    float x[kRow], y[kRow], z[kRow];
 };
+using VectorRows = VectorRowsOf<kBatchRow>;
 
 /// The paths that are still alive, close together.
 struct alignas(64) PathQueue {
@@ -46,16 +48,6 @@ struct alignas(64) ShadowQueue {
     FloatRow t_far, time;
     VectorRows contribution;
     IntRow slot;
-};
-
-/// Rays that met nothing, with what they bring of the environment. It holds one group of packs at a time.
-struct alignas(64) EscapeQueue {
-    VectorRows d;            ///< later x and y: the place in the cell
-    VectorRows beta;
-    FloatRow pdf;            ///< of the direction, per steradian; -1 if light sampling could not have made it
-    FloatRow probability;    ///< with which the environment would have been chosen
-    IntRow slot;
-    IntRow column, row;      ///< of the map's cell
 };
 
 }  // namespace koksma::detail

@@ -22,6 +22,7 @@ KOKSMA_MATHS_END
 #include "ray_order.h"
 #include "path_sums.h"
 #include "shadow_rays.h"
+#include "sky_places.h"
 #include "escaped_rays.h"
 #include "sky_samples.h"
 
@@ -64,6 +65,7 @@ public:
         for (depth_ = 0; alive_ > 0; ++depth_) {
             last_vertex_ = settings_.max_depth >= 0 && depth_ + 1 >= settings_.max_depth;
             if (!last_vertex_) numbers_.fill_bounce(static_cast<std::size_t>(depth_), {paths_->id, alive_});
+            if constexpr (kEffects.has(Effect::environment) && kSmooth) sky_drawn_ = sky_.usable() && !last_vertex_ && numbers_.are_laid_out();
             const std::size_t count = alive_;
             alive_ = 0;
             sorted_ = depth_ > 0 && order_.pays();  // never by the number of rays: Embree answers by flag
@@ -131,7 +133,6 @@ private:
         };
         if (!sorted_) each([&](std::size_t at, Mask active) { trace_pack(at, active); });
         if constexpr (kEffects.has(Effect::environment) && kSmooth) {
-            sky_drawn_ = sky_.usable() && !last_vertex_ && numbers_.are_laid_out();
             if (sky_drawn_) {
                 each([&](std::size_t at, Mask active) {
                     const Int32 geometry = Int32::load(geometry_ + at);
@@ -435,7 +436,7 @@ private:
     const SingleLight single_light_;
     std::unique_ptr<detail::PathQueue> paths_;
     ShadowRays<kEffects> shadows_;
-    EscapedRays escaped_;
+    EscapedRays<kGroup> escaped_;
     SkySamples<kEffects, kGroup> sky_;
     RayOrder order_;
     RayPacket<kLanes> packet_{};

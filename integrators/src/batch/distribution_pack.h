@@ -13,16 +13,7 @@ struct DiscreteEntryPack {
     Double below, width;
 };
 
-/// Of one or two entries: without a search, and nothing is gathered.
-[[nodiscard]] inline DiscreteEntryPack entry_of_two(const DiscreteDistribution& distribution, Double x) {
-    const double* sums = distribution.prefix_sums().data();
-    const bool two = distribution.last() == 1;
-    const Int32 index = two ? select(Double::of(sums[0]) <= x, Int32(1), Int32(0)) : Int32(0);
-    const Double second = Double::of(index), first = Double::of(1.0) - second;  // 0 or 1: products are exact
-    return {index, second * Double::of(sums[0]), first * Double::of(sums[0]) + second * Double::of(two ? sums[1] - sums[0] : 0.0)};
-}
-
-[[nodiscard]] inline DiscreteEntryPack entry_of_many(const DiscreteDistribution& distribution, Double x) {
+[[nodiscard]] inline DiscreteEntryPack entry_of(const DiscreteDistribution& distribution, Double x) {
     const double* sums = distribution.prefix_sums().data();
     // The first entry whose sum is above x, or the last that can be chosen.
     Int32 low(0), high(static_cast<std::int32_t>(distribution.last()));
@@ -39,7 +30,7 @@ struct DiscreteEntryPack {
 
 [[nodiscard]] inline DiscreteSamplePack sample_pack(const DiscreteDistribution& distribution, Float u) {
     const Double x = Double::of(u) * Double::of(distribution.total());
-    const DiscreteEntryPack entry = distribution.last() < 2 ? entry_of_two(distribution, x) : entry_of_many(distribution, x);
+    const DiscreteEntryPack entry = entry_of(distribution, x);
     const Float rest = ((x - entry.below) / entry.width).rounded();
     return {entry.index, (entry.width * Double::of(distribution.inverse_total())).rounded(),
             select(rest < Float(kOneMinusUlp), select(rest > Float(0.0f), rest, Float(0.0f)), Float(kOneMinusUlp))};

@@ -7,15 +7,18 @@ KOKSMA_MATHS_BEGIN
 using FloatLanes = float[kLanes];
 using IntLanes = std::int32_t[kLanes];
 
-[[nodiscard]] inline Vec3<Float> load(const detail::VectorRows& rows, std::size_t at) {
+template <std::size_t kRow>
+[[nodiscard]] Vec3<Float> load(const detail::VectorRowsOf<kRow>& rows, std::size_t at) {
     return {Float::load(rows.x + at), Float::load(rows.y + at), Float::load(rows.z + at)};
 }
-inline void store(const Vec3<Float>& v, detail::VectorRows& rows, std::size_t at) {
+template <std::size_t kRow>
+void store(const Vec3<Float>& v, detail::VectorRowsOf<kRow>& rows, std::size_t at) {
     v.x.store(rows.x + at);
     v.y.store(rows.y + at);
     v.z.store(rows.z + at);
 }
-inline void compress_store(const Vec3<Float>& v, Mask m, detail::VectorRows& rows, std::size_t at) {
+template <std::size_t kRow>
+void compress_store(const Vec3<Float>& v, Mask m, detail::VectorRowsOf<kRow>& rows, std::size_t at) {
     v.x.compress_store(m, rows.x + at);
     v.y.compress_store(m, rows.y + at);
     v.z.compress_store(m, rows.z + at);

@@ -43,22 +43,12 @@ public:
         for (std::size_t at = 0; at < count_; at += kPack) {
             // Lanes beyond the last hold old numbers or zeros: any will do.
             const Vec3<Float> wi = environment_direction(cells, Vec2<Float>{Float::load(x_ + at), Float::load(y_ + at)});
-            const EnvironmentPlaceOf<Float> place = environment_place(table, wi);
-            wi.x.store(direction_.x + at);
-            wi.y.store(direction_.y + at);
-            wi.z.store(direction_.z + at);
-            place.x.store(x_ + at);
-            place.y.store(y_ + at);
-            place.column.store(column_ + at);
-            place.row.store(cell_row_ + at);
+            store(wi, direction_, at);
             const Mask active = Mask::first(count_ - at);
-            const Int32 cell = place.row * Int32(table.width + 1) + place.column;
-            prefetch(table.texels, active, cell);
-            prefetch(table.texels + table.width + 1, active, cell);
-            prefetch(table.begin, active, cell);
+            places_.find(table, at, active, active, wi);
         }
         for (std::size_t at = 0; at < count_; at += kPack) {
-            const EnvironmentPlaceOf<Float> place{Int32::load(column_ + at), Int32::load(cell_row_ + at), Float::load(x_ + at), Float::load(y_ + at)};
+            const EnvironmentPlaceOf<Float> place = places_.get(at);
             const VectorLanes radiance(environment_radiance(table, place));
             const NumberLanes pdf(environment_density(table, place));
             for (std::size_t i = 0; i < kPack && at + i < count_; ++i) {
@@ -74,16 +64,13 @@ public:
 
     /// Those of a pack. @return  anything in lanes that do not ask
     [[nodiscard]] LightSamplePack get(std::size_t at) const {
-        const auto pack = [at](const Rows& rows) { return Vec3<Float>{Float::load(rows.x + at), Float::load(rows.y + at), Float::load(rows.z + at)}; };
-        const Vec3<Float> wi = pack(wi_);
-        return {wi, pack(radiance_), wi, Float::load(pdf_ + at), Mask{}, Mask::first(kPack)};
+        const Vec3<Float> wi = load(wi_, at);
+        return {wi, load(radiance_, at), wi, Float::load(pdf_ + at), Mask{}, Mask::first(kPack)};
     }
 
 private:
     static constexpr std::size_t kRow = kGroup + kPack;
-    struct alignas(64) Rows {
-        float x[kRow], y[kRow], z[kRow];
-    };
+    using Rows = detail::VectorRowsOf<kRow>;
     static void put(Rows& rows, std::size_t at, Vec3f v) {
         rows.x[at] = v.x;
         rows.y[at] = v.y;
@@ -94,9 +81,10 @@ private:
     bool usable_ = false;
     std::vector<std::int32_t> asks_;  ///< by geometry: 1 where a side of its material has a smooth lobe
     // Those that ask, close together:
-    alignas(64) float x_[kRow]{}, y_[kRow]{};  ///< the numbers, later the place in the cell
-    alignas(64) std::int32_t path_[kRow]{}, column_[kRow]{}, cell_row_[kRow]{};
+    alignas(64) float x_[kRow]{}, y_[kRow]{};
+    alignas(64) std::int32_t path_[kRow]{};
     Rows direction_{};
+    SkyPlaces<kGroup> places_;
     std::size_t count_ = 0;
     // By the path's place in the group:
     Rows wi_{}, radiance_{};

@@ -1,6 +1,7 @@
 #include <koksma/sampling/error.h>
 
 #include "compile.h"
+#include "mesh_forms.h"
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -79,6 +80,11 @@ double make_surface_light(const Scene& scene, const Shape& shape, std::size_t ge
             // The true area: float moves the corners of a small light by a part of its size, 1.3 % of the area at 2 um and 1 m.
             return area > 0.0 ? 4.0 * glm::length(glm::cross(glm::dvec3(shape.to_world[0]), glm::dvec3(shape.to_world[1]))) : area;
         }
+    }
+    std::vector<TriangleIndices> triangles(scene.triangles.begin() + g.first, scene.triangles.begin() + static_cast<std::ptrdiff_t>(triangle_end(scene, geometry)));
+    if (make_parallelogram(scene.positions, triangles)) {
+        light.kind = LightKind::parallelogram;
+        return area;
     }
     light.kind = LightKind::mesh;
     light.triangles = DiscreteDistribution(areas);

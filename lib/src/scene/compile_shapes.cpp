@@ -1,6 +1,7 @@
 #include <koksma/sampling/error.h>
 
 #include "compile.h"
+#include "mesh_forms.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -127,6 +128,8 @@ private:
                 throw Error(shape_.where.text() + ": a vertex is farther from the camera than 2e12, or not finite; scale the scene down");
         }
         for (const auto& t : mesh.triangles) scene_.triangles.push_back({base + t[0], base + t[1], base + t[2]});
+        const auto triangles = std::span(scene_.triangles).subspan(g.first);
+        if (shape_.emission) static_cast<void>(make_parallelogram(scene_.positions, triangles));
         if (g.has_uvs) {
             scene_.uvs.resize(base);
             scene_.uvs.insert(scene_.uvs.end(), mesh.uvs.begin(), mesh.uvs.end());
@@ -139,7 +142,8 @@ private:
                 const double len = glm::length(v);
                 scene_.normals.push_back(len > 0.0 ? Vec3f(glm::vec3(v / len)) : Vec3f(0.0f));
             }
-            scene_.effects |= {Effect::shading_normals};
+            g.has_normals = !are_flat(scene_.positions, scene_.normals, triangles);
+            if (g.has_normals) scene_.effects |= {Effect::shading_normals};
         }
         add_attributes(mesh, g, base);
         scene_.geometries.push_back(g);

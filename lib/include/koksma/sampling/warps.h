@@ -21,9 +21,8 @@ template <class Real>
     const auto wide = abs(a) > abs(b);
     const Real r = select(wide, a, b);
     const Real quotient = select(wide, b, a) / select(r == Real(0.0f), Real(1.0f), r);  // at the centre any angle will do
-    const Real turns = select(wide, Real(0.125f) * quotient, Real(0.25f) - Real(0.125f) * quotient);
-    const SinCosOf<Real> sc = sincos_turns(turns);
-    return {r * sc.cos, r * sc.sin};
+    const SinCosOf<Real> sc = sincos_eighth(Real(0.25f * kPi) * quotient);  // of the angle from the nearer axis
+    return {r * select(wide, sc.cos, sc.sin), r * select(wide, sc.sin, sc.cos)};
 }
 
 /// Cosine-weighted on the hemisphere around +z.

@@ -27,16 +27,22 @@ struct SinCosOf {
     Real sin, cos;
 };
 
+/// sin and cos of x in [-pi/4, pi/4]. Error below 1e-7.
+/// Source: Taylor polynomials, degree 9 and 8; the remainder is below half an ulp.
+template <class Real>
+[[nodiscard]] SinCosOf<Real> sincos_eighth(Real x) noexcept {
+    const Real x2 = x * x;
+    return {x * (Real(1.0f) + x2 * (Real(-1.6666667e-1f) + x2 * (Real(8.3333333e-3f) + x2 * (Real(-1.9841270e-4f) + x2 * Real(2.7557319e-6f))))),
+            Real(1.0f) + x2 * (Real(-0.5f) + x2 * (Real(4.1666667e-2f) + x2 * (Real(-1.3888889e-3f) + x2 * Real(2.4801587e-5f))))};
+}
+
 /// sin and cos of 2 pi u. @param u  any finite number; the argument is reduced exactly. Error below 1e-7.
-/// Source: Taylor polynomials on an eighth of the circle, degree 9 and 8; the remainder is below half an ulp.
 template <class Real>
 [[nodiscard]] SinCosOf<Real> sincos_turns(Real u) noexcept {
     using Int = IntOf<Real>;
     const Real quarter = floor(Real(4.0f) * u + Real(0.5f));            // nearest multiple of a quarter turn
     const Real x = (u - Real(0.25f) * quarter) * Real(2.0f * kPi);  // in [-pi/4, pi/4]; the difference is exact
-    const Real x2 = x * x;
-    const Real s = x * (Real(1.0f) + x2 * (Real(-1.6666667e-1f) + x2 * (Real(8.3333333e-3f) + x2 * (Real(-1.9841270e-4f) + x2 * Real(2.7557319e-6f)))));
-    const Real c = Real(1.0f) + x2 * (Real(-0.5f) + x2 * (Real(4.1666667e-2f) + x2 * (Real(-1.3888889e-3f) + x2 * Real(2.4801587e-5f))));
+    const auto [s, c] = sincos_eighth(x);
     const Int q = to_int(quarter - Real(4.0f) * floor(Real(0.25f) * quarter));
     const auto odd = (q & Int(1)) != Int(0);
     const Real sin_q = select(odd, c, s);
