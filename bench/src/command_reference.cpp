@@ -18,9 +18,8 @@ void print_third_opinion(const BenchScene& scene, const Reference& reference, co
     const ThirdOpinion third = third_opinion(scene.scene, reference, reference.halves[0].spp, experiment.reference.replicates, registry,
                                              threads, [&](double f) { progress.update(f); });
     fmt::print(
-        "{:<10} agrees with {}: largest z of an 8x8 block {:.2f} (limit {:.1f}). A bias of {:.2g} % of the mean in a typical block, or of "
-        "{:.2g} % in the whole image, would "
-        "have been seen\n",
+        "{:<10} agrees with {}: largest z of an 8x8 block {:.2f} (limit {:.1f}). A bias of {:.2g} % of the mean in a typical block, "
+        "or of {:.2g} % in the whole image, would have been seen\n",
         "", third.estimator, third.max_block_z, third.limit, 100 * third.block_bias, 100 * third.image_bias);
 }
 

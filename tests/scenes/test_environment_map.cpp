@@ -11,8 +11,8 @@ using namespace koksma::testing;
 
 namespace {
 
-float pdf_of(const EnvironmentMap& map, Vec3f d) { return environment_density(map.table(), environment_place(map.table(), d)); }
-Vec3f radiance_of(const EnvironmentMap& map, Vec3f d) { return environment_radiance(map.table(), environment_place(map.table(), d)); }
+float pdf_of(const EnvironmentMap& map, Vec3f d) { return environment_at(map.table(), environment_place(map.table(), d)).pdf_w; }
+Vec3f radiance_of(const EnvironmentMap& map, Vec3f d) { return environment_at(map.table(), environment_place(map.table(), d)).radiance; }
 struct Drawn {
     Vec3f d;
     float pdf_w = 0.0f;

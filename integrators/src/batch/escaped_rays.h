@@ -27,7 +27,7 @@ public:
         const EnvironmentTable table = mapped ? scene_.environment_map->table() : EnvironmentTable{};
         for (std::size_t at = 0; mapped && at < count_; at += kPack) {
             const Mask active = Mask::first(count_ - at);
-            places_.find(table, at, active, active & !(Float::load(pdf_ + at) < Float(0.0f)), load(d_, at));
+            places_.find(table, at, active, load(d_, at));
         }
         for (std::size_t at = 0; at < count_; at += kPack) {
             const Float pdf = Float::load(pdf_ + at);
@@ -35,9 +35,9 @@ public:
             Vec3<Float> radiance;
             Float pdf_light(0.25f * kInvPi);
             if (mapped) {
-                const EnvironmentPlaceOf<Float> place = places_.get(at);
-                radiance = environment_radiance(table, place);
-                if (any(active & !delta)) pdf_light = environment_density(table, place);
+                const EnvironmentValueOf<Float> value = environment_at(table, places_.get(at));
+                radiance = value.radiance;
+                pdf_light = value.pdf_w;
             } else {
                 radiance = Vec3<Float>::splat(scene_.lights[static_cast<std::size_t>(scene_.environment_light)].radiance.constant);
             }

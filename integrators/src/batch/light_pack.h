@@ -182,8 +182,9 @@ inline void sample_environment(const Scene& scene, Mask active, Vec2<Float> u, L
         d = environment_direction(scene.environment_map->cells(), u);
         const EnvironmentTable table = scene.environment_map->table();
         const EnvironmentPlaceOf<Float> place = environment_place(table, d);
-        radiance = environment_radiance(table, place);
-        pdf = environment_density(table, place);
+        const EnvironmentValueOf<Float> value = environment_at(table, place);
+        radiance = value.radiance;
+        pdf = value.pdf_w;
     } else {
         d = square_to_sphere(u);
         radiance = Vec3<Float>::splat(scene.lights[static_cast<std::size_t>(scene.environment_light)].radiance.constant);

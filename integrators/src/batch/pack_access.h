@@ -1,7 +1,5 @@
 // Packs from the scene's arrays and from queues. Read once for each instruction set (no guard).
 
-#include <koksma/simd/rows.h>
-
 KOKSMA_MATHS_BEGIN
 
 using FloatLanes = float[kLanes];

@@ -7,18 +7,15 @@ template <std::size_t kRows>
 class SkyPlaces {
 public:
     /// Keeps the places of a pack of directions and has fetched what is read there.
-    /// @param active   lanes of which the radiance will be asked for
-    /// @param density  lanes of which the density will be, too
-    void find(const EnvironmentTable& table, std::size_t at, Mask active, Mask density, const Vec3<Float>& wi) {
+    void find(const EnvironmentTable& table, std::size_t at, Mask active, const Vec3<Float>& wi) {
         const EnvironmentPlaceOf<Float> place = environment_place(table, wi);
         place.x.store(x_ + at);
         place.y.store(y_ + at);
         place.column.store(column_ + at);
         place.row.store(row_ + at);
-        const Int32 cell = place.row * Int32(table.width + 1) + place.column;
-        prefetch(table.texels, active, cell);
-        prefetch(table.texels + table.width + 1, active, cell);
-        prefetch(table.begin, density, cell);
+        const Int32 first = (place.row * Int32(table.width + 1) + place.column) * Int32(4);
+        prefetch(table.texels, active, first);
+        prefetch(table.texels + 4 * (table.width + 1), active, first);
     }
     /// In lanes never found: the first cell or an old one, which the map has.
     [[nodiscard]] EnvironmentPlaceOf<Float> get(std::size_t at) const {

@@ -45,12 +45,12 @@ public:
             const Vec3<Float> wi = environment_direction(cells, Vec2<Float>{Float::load(x_ + at), Float::load(y_ + at)});
             store(wi, direction_, at);
             const Mask active = Mask::first(count_ - at);
-            places_.find(table, at, active, active, wi);
+            places_.find(table, at, active, wi);
         }
         for (std::size_t at = 0; at < count_; at += kPack) {
-            const EnvironmentPlaceOf<Float> place = places_.get(at);
-            const VectorLanes radiance(environment_radiance(table, place));
-            const NumberLanes pdf(environment_density(table, place));
+            const EnvironmentValueOf<Float> value = environment_at(table, places_.get(at));
+            const VectorLanes radiance(value.radiance);
+            const NumberLanes pdf(value.pdf_w);
             for (std::size_t i = 0; i < kPack && at + i < count_; ++i) {
                 const auto path = static_cast<std::size_t>(path_[at + i]);
                 const Vec3f wi{direction_.x[at + i], direction_.y[at + i], direction_.z[at + i]}, l = radiance[static_cast<int>(i)];

@@ -72,11 +72,9 @@ struct TrianglePack {
     Int32 flags, material, light;
 };
 [[nodiscard]] inline TrianglePack load_triangles(const Scene& scene, Int32 which) {
-    alignas(4 * kLanes) IntLanes rows;
-    which.store(rows);
     constexpr int kWords = sizeof(TriangleRow) / 4;
     Float w[kWords];
-    load_rows(reinterpret_cast<const float*>(scene.triangle_rows.data()), kWords, rows, w);
+    load_rows(reinterpret_cast<const float*>(scene.triangle_rows.data()), kWords, which, w);
     static_assert(offsetof(TriangleRow, v1) == 12 && offsetof(TriangleRow, v2) == 24 && offsetof(TriangleRow, ng) == 36 &&
                   offsetof(TriangleRow, flags) == 48 && offsetof(TriangleRow, material) == 52 && offsetof(TriangleRow, light) == 56);
     return {which, {w[0], w[1], w[2]}, {w[3], w[4], w[5]}, {w[6], w[7], w[8]}, {w[9], w[10], w[11]}, bits_of(w[12]), bits_of(w[13]), bits_of(w[14])};
@@ -89,12 +87,9 @@ struct ShadingPack {
 };
 template <EffectSet kEffects>
 [[nodiscard]] ShadingPack load_shading(const Scene& scene, Int32 which) {
-    alignas(4 * kLanes) IntLanes rows;
-    which.store(rows);
     constexpr bool kUvs = kEffects.has(Effect::texture) || kEffects.has(Effect::anisotropic);
-    constexpr std::size_t kStride = sizeof(ShadingRow) / 4;
     Float w[kUvs ? 16 : 12];
-    load_rows(reinterpret_cast<const float*>(scene.shading_rows.data()), kStride, rows, w);
+    load_rows(reinterpret_cast<const float*>(scene.shading_rows.data()), sizeof(ShadingRow) / 4, which, w);
     static_assert(offsetof(ShadingRow, n1) == 12 && offsetof(ShadingRow, n2) == 24 && offsetof(ShadingRow, uv0) == 36 && offsetof(ShadingRow, uv2) == 52);
     ShadingPack s{{w[0], w[1], w[2]}, {w[3], w[4], w[5]}, {w[6], w[7], w[8]}, {}, {}, {}};
     if constexpr (kUvs) s.uv0 = {w[9], w[10]}, s.uv1 = {w[11], w[12]}, s.uv2 = {w[13], w[14]};

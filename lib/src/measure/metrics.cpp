@@ -29,7 +29,7 @@ double symmetric(double a, double b) {
     return size > 0 ? std::abs(a - b) / size : 0;
 }
 
-/// eps of relMSE: from all finite pixels of the reference, whatever it is compared with.
+/// eps of relMSE: from all finite pixels of the reference, whatever it is compared with. Of a black one NaN, and so is relMSE.
 double relative_floor(std::span<const float> reference) {
     double sum = 0, n = 0;
     for (std::size_t p = 0; p < reference.size(); p += 3) {
@@ -38,7 +38,7 @@ double relative_floor(std::span<const float> reference) {
         ++n;
     }
     const double mean = n > 0 ? sum / n : kNaN;
-    return kRelativeFloor * mean * mean;
+    return mean != 0 ? kRelativeFloor * mean * mean : kNaN;
 }
 
 }  // namespace
@@ -56,7 +56,7 @@ ImageError compare_images(std::span<const float> a, std::span<const float> b) {
         for (std::size_t c = 0; c < 3; ++c) {
             const double x = a[p + c], r = b[p + c], d = x - r;
             e.mse += d * d;
-            if (eps > 0) e.relmse += d * d / (r * r + eps);
+            e.relmse += d * d / (r * r + eps);
             e.mae += std::abs(d);
             e.smape += symmetric(x, r);
             e.max_abs = std::max(e.max_abs, std::abs(d));
@@ -67,7 +67,7 @@ ImageError compare_images(std::span<const float> a, std::span<const float> b) {
     const double pixels = e.pixels > 0 ? static_cast<double>(e.pixels) : kNaN;  // none makes every mean NaN
     e.mse /= 3 * pixels;
     e.rmse = std::sqrt(e.mse);
-    e.relmse = eps > 0 ? e.relmse / (3 * pixels) : kNaN;
+    e.relmse /= 3 * pixels;
     e.mae /= 3 * pixels;
     e.smape /= 3 * pixels;
     if (e.pixels == 0) e.max_abs = kNaN;
@@ -96,7 +96,7 @@ ReferenceError compare_to_reference(std::span<const float> image, std::span<cons
         ++e.pixels;
         for (std::size_t c = 0; c < 3; ++c) {
             const double r = reference_mean[p + c], d = static_cast<double>(image[p + c]) - r;
-            const double denominator = eps > 0 ? r * r + eps : kNaN;
+            const double denominator = r * r + eps;
             const double variance = corrected ? static_cast<double>(reference_variance_of_mean[p + c]) : 0;
             e.mse_raw += d * d;
             e.relmse_raw += d * d / denominator;
@@ -112,8 +112,8 @@ ReferenceError compare_to_reference(std::span<const float> image, std::span<cons
     e.mae /= n;
     e.smape /= n;
     e.mse = e.mse_raw - e.mse_floor;
-    e.relmse_raw = eps > 0 ? e.relmse_raw / n : kNaN;
-    e.relmse_floor = eps > 0 ? e.relmse_floor / n : kNaN;
+    e.relmse_raw /= n;
+    e.relmse_floor /= n;
     e.relmse = e.relmse_raw - e.relmse_floor;
     return e;
 }

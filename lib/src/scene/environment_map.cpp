@@ -25,10 +25,9 @@ EnvironmentMap::EnvironmentMap(const MapEnvironment& description) : width_(descr
     const Image& image = *description.image;
     const int image_rows = height_;
     if (height_ == 1) height_ = 2;  // one row: both poles see it
-    texels_.reserve(static_cast<std::size_t>(width_ + 1) * height_);
-    for (int y = 0; y < height_; ++y)
-        for (int x = 0; x <= width_; ++x)
-            texels_.push_back(Vec3f(image.texels[static_cast<std::size_t>(y % image_rows) * width_ + x % width_]) * description.scale);
+    const auto texel = [&](int y, int x) {
+        return Vec3f(image.texels[static_cast<std::size_t>(y % image_rows) * width_ + x % width_]) * description.scale;
+    };
 
     glm::dmat3 to_world(description.to_world);
     for (int i = 0; i < 3; ++i) to_world[i] = glm::normalize(to_world[i]);
@@ -52,8 +51,7 @@ EnvironmentMap::EnvironmentMap(const MapEnvironment& description) : width_(descr
     for (int y = 0; y < rows; ++y) {
         double row_sum = 0.0;
         for (int x = 0; x < width_; ++x) {
-            const Vec3f* t = &texels_[static_cast<std::size_t>(y) * (width_ + 1) + x];
-            const Vec3d cell = (to_double(t[0]) + to_double(t[1]) + to_double(t[width_ + 1]) + to_double(t[width_ + 2])) * 0.25;
+            const Vec3d cell = (to_double(texel(y, x)) + to_double(texel(y, x + 1)) + to_double(texel(y + 1, x)) + to_double(texel(y + 1, x + 1))) * 0.25;
             weights[x] = (cell.x + cell.y + cell.z) * band(y);
             row_sum += weights[x];
             sum += cell * (band(y) / width_);
@@ -68,6 +66,14 @@ EnvironmentMap::EnvironmentMap(const MapEnvironment& description) : width_(descr
         row_density_.push_back(static_cast<float>(row_parts / kWhole / kWhole * width_ / band(y)));
     }
     mean_ = to_float(sum * (1.0 / (4.0 * kPiDouble)));
+    texels_.reserve(static_cast<std::size_t>(width_ + 1) * height_ * 4);
+    const std::int32_t* part = columns_.table().begin;
+    for (int y = 0; y < height_; ++y)
+        for (int x = 0; x <= width_; ++x) {
+            const Vec3f radiance = texel(y, x);
+            for (const float c : {radiance.x, radiance.y, radiance.z}) texels_.push_back(c);
+            texels_.push_back(std::bit_cast<float>(y < rows ? *part++ : 0));
+        }
 }
 
 std::span<const std::int32_t> EnvironmentMap::Distributions::add_row(std::span<const double> weights) {

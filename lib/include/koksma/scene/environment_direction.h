@@ -65,7 +65,7 @@ template <class Real>
     return {low, select(rest < Real(kOneMinusUlp), rest, Real(kOneMinusUlp))};
 }
 
-/// A direction, unit, world space; its density is environment_density's. @pre the map is not black
+/// A direction, unit, world space; environment_at has its density. @pre the map is not black
 template <class Real>
 [[nodiscard]] Vec3<Real> environment_direction(const EnvironmentCells& cells, Vec2<Real> u) noexcept {
     using Int = IntOf<Real>;

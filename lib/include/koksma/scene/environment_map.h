@@ -18,8 +18,8 @@ class EnvironmentMap {
 public:
     explicit EnvironmentMap(const MapEnvironment& description);
 
-    /// For environment_radiance() and environment_density().
-    [[nodiscard]] EnvironmentTable table() const noexcept { return {width_, height_, texels_.data(), columns_.table().begin, row_density_.data(), axis_x_, axis_y_, axis_z_}; }
+    /// For environment_place() and environment_at().
+    [[nodiscard]] EnvironmentTable table() const noexcept { return {width_, height_, texels_.data(), row_density_.data(), axis_x_, axis_y_, axis_z_}; }
     [[nodiscard]] bool is_black() const noexcept { return black_; }
     /// For environment_direction(): draws by cells. @pre  !is_black()
     [[nodiscard]] EnvironmentCells cells() const noexcept {
@@ -42,7 +42,7 @@ private:
     };
 
     int width_, height_;             ///< cells per row (wrapping), rows of texels
-    std::vector<Vec3f> texels_;      ///< (height, width + 1): the first column is repeated at the end
+    std::vector<float> texels_;      ///< as in EnvironmentTable
     Vec3f axis_x_, axis_y_, axis_z_; ///< rows of world-to-map
     std::vector<float> half_sine2_;  ///< sin^2 of half the polar angle of each row of texels
     std::vector<float> row_density_;

@@ -15,11 +15,12 @@ namespace koksma {
 
 /// What a lookup reads.
 struct EnvironmentTable {
-    std::int32_t width = 0, height = 0;   ///< cells per row (wrapping), rows of texels
-    const Vec3f* texels = nullptr;        ///< (height, width + 1): the first column is repeated at the end
-    const std::int32_t* begin = nullptr;  ///< (height - 1, width + 1): where each cell's part of its row begins (environment_direction.h)
-    const float* row_density = nullptr;   ///< (height - 1): density per steradian of a cell that has one part
-    Vec3f axis_x, axis_y, axis_z;         ///< rows of world-to-map
+    std::int32_t width = 0, height = 0;  ///< cells per row (wrapping), rows of texels
+    /// (height, width + 1, 4): the first column is repeated at the end. Red, green, blue; and the bits of the integer at which the part of
+    /// the cell to the right and below begins in its row (environment_direction.h).
+    const float* texels = nullptr;
+    const float* row_density = nullptr;  ///< (height - 1): density per steradian of a cell that has one part
+    Vec3f axis_x, axis_y, axis_z;        ///< rows of world-to-map
 };
 
 }  // namespace koksma
@@ -52,25 +53,23 @@ template <class Real>
     return {ix, iy, x - to_real(ix), y - to_real(iy)};
 }
 
-/// Radiance, W sr^-1 m^-2.
 template <class Real>
-[[nodiscard]] Vec3<Real> environment_radiance(const EnvironmentTable& t, const EnvironmentPlaceOf<Real>& at) noexcept {
-    using Int = IntOf<Real>;
-    const Int below = at.row * Int(3 * (t.width + 1)) + at.column * Int(3);
-    const auto texel = [&](std::int32_t offset) {
-        const float* base = &t.texels->x + offset;
-        return Vec3<Real>{gather(base, below), gather(base + 1, below), gather(base + 2, below)};
-    };
-    const std::int32_t next_row = 3 * (t.width + 1);
-    const Real vx = Real(1.0f) - at.x, vy = Real(1.0f) - at.y;
-    return (texel(0) * vx + texel(3) * at.x) * vy + (texel(next_row) * vx + texel(next_row + 3) * at.x) * at.y;
-}
+struct EnvironmentValueOf {
+    Vec3<Real> radiance;  ///< W sr^-1 m^-2
+    Real pdf_w;           ///< with which environment_direction draws the direction, per steradian
+};
 
-/// With which environment_direction draws a direction, per steradian.
 template <class Real>
-[[nodiscard]] Real environment_density(const EnvironmentTable& t, const EnvironmentPlaceOf<Real>& at) noexcept {
+[[nodiscard]] EnvironmentValueOf<Real> environment_at(const EnvironmentTable& t, const EnvironmentPlaceOf<Real>& at) noexcept {
     const IntOf<Real> cell = at.row * IntOf<Real>(t.width + 1) + at.column;
-    return to_real(gather(t.begin + 1, cell) - gather(t.begin, cell)) * gather(t.row_density, at.row);
+    Real above[8], below[8];  // two texels side by side
+    load_rows(t.texels, 4, cell, above);
+    load_rows(t.texels, 4, cell + IntOf<Real>(t.width + 1), below);
+    const auto between = [&](const Real(&two)[8]) {
+        return Vec3<Real>{two[0], two[1], two[2]} * (Real(1.0f) - at.x) + Vec3<Real>{two[4], two[5], two[6]} * at.x;
+    };
+    const Real density = to_real(bits_of(above[7]) - bits_of(above[3])) * gather(t.row_density, at.row);
+    return {between(above) * (Real(1.0f) - at.y) + between(below) * at.y, density};
 }
 
 KOKSMA_MATHS_END

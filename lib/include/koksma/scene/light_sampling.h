@@ -24,18 +24,14 @@ template <EffectSet kEffects>
     return texture_value<kEffects>(scene, scene.lights[static_cast<std::size_t>(light)].radiance, s.uv);
 }
 
-/// What arrives from infinity.
-struct EnvironmentValue {
-    Vec3f radiance;
-    float pdf_w;  ///< with which sample_light draws the direction, per steradian
-};
+/// What arrives from infinity, and with which density sample_light draws the direction.
+using EnvironmentValue = EnvironmentValueOf<float>;
 
 /// @pre there is an environment
 [[nodiscard]] inline EnvironmentValue environment_value(const Scene& scene, Vec3f d) noexcept {
     if (!scene.environment_map) return {scene.lights[static_cast<std::size_t>(scene.environment_light)].radiance.constant, 0.25f * kInvPi};
     const EnvironmentTable table = scene.environment_map->table();
-    const auto place = environment_place(table, d);
-    return {environment_radiance(table, place), environment_density(table, place)};
+    return environment_at(table, environment_place(table, d));
 }
 
 /// A sphere is sampled by the cone that it fills, from outside; one that shines inwards, by area.

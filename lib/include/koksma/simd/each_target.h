@@ -33,4 +33,5 @@
     HWY_AFTER_NAMESPACE();
 
 #include <koksma/simd/pack.h>
+#include <koksma/simd/rows.h>
 #include KOKSMA_SHARED_MATHS

@@ -1,4 +1,4 @@
-// Rows of memory, one a lane, turned into packs. No include guard: read anew for each instruction set, after each_target.h.
+// Rows of memory, one a lane, turned into packs. No include guard: read anew for each instruction set, after pack.h.
 
 HWY_BEFORE_NAMESPACE();
 namespace koksma::HWY_NAMESPACE {
@@ -44,6 +44,13 @@ HWY_INLINE void load_rows(const float* base, std::size_t stride, const std::int3
         out[w + 3] = hn::BitCast(d, hn::InterleaveUpper(pairs, high01, high23));
     }
 #endif
+}
+
+template <int words>
+HWY_INLINE void load_rows(const float* base, std::int32_t stride, Int32 index, Float (&out)[words]) {
+    alignas(64) std::int32_t rows[kLanes];
+    index.store(rows);
+    load_rows(base, static_cast<std::size_t>(stride), rows, out);
 }
 
 }  // namespace koksma::HWY_NAMESPACE

@@ -56,6 +56,11 @@ constexpr void assign(bool m, T& dst, const T& src) noexcept {
 /// base[index]
 [[nodiscard]] constexpr float gather(const float* base, std::int32_t index) noexcept { return base[index]; }
 [[nodiscard]] constexpr std::int32_t gather(const std::int32_t* base, std::int32_t index) noexcept { return base[index]; }
+/// out[w] = base[stride * index + w], w < words.
+template <int words>
+constexpr void load_rows(const float* base, std::int32_t stride, std::int32_t index, float (&out)[words]) noexcept {
+    for (int w = 0; w < words; ++w) out[w] = base[static_cast<std::int64_t>(stride) * index + w];
+}
 /// x << n and arithmetic x >> n.
 template <int n>
 [[nodiscard]] constexpr std::int32_t shift_left(std::int32_t x) noexcept {
