@@ -116,6 +116,18 @@ struct EffectScene {
     add(Effect::environment, d);
     d.environment = ConstantEnvironment{};
     add(Effect::environment, d);
+    // Sides that ask the sky for light and sides that do not, on one shape.
+    for (const auto& [front, back] : {std::pair<OneSidedMaterial, OneSidedMaterial>{Diffuse{Rgb(0.6f)}, Diffuse{Rgb(0.3f)}},
+                                      {Conductor{}, Diffuse{Rgb(0.3f)}},
+                                      {Diffuse{Rgb(0.6f)}, Conductor{}}}) {
+        d = floor_scene(false);
+        d.environment = m;
+        const std::uint32_t sided = add_material(d, front, true);
+        d.materials[sided].back = back;
+        add_shape(d, RectangleShape{}, translated({-0.5, 0.7, 0}) * rotated({1, 0, 0}, 150) * scaled(0.4), sided);
+        add_shape(d, RectangleShape{}, translated({0.5, 0.7, 0}) * rotated({1, 0, 0}, -30) * scaled(0.4), sided);
+        add(Effect::environment, d);
+    }
 
     add(Effect::diffuse, floor_scene());
 
