@@ -96,6 +96,9 @@ template <EffectSet kEffects>
     return s;
 }
 
+// The first byte of a record's first word is its kind: so it is read below.
+static_assert(offsetof(GeometryRecord, kind) == 0 && sizeof(GeometryKind) == 1 && std::endian::native == std::endian::little);
+
 /// Of the lanes that met a mesh. @param hit  lanes that met something
 [[nodiscard]] inline Mask met_mesh(const Scene& scene, Mask hit, Int32 geometry, Int32 primitive, Int32& triangle) {
     const GeometryRecord* records = scene.geometries.data();
