@@ -42,7 +42,7 @@ struct NamedScene {
     return d;
 }
 
-/// All built-in scenes, one scene for each effect, and two of many triangles, with films of about 2000 pixels.
+/// All built-in scenes, one scene for each effect, some of many triangles or of instances that move, with films of about 2000 pixels.
 [[nodiscard]] inline std::vector<NamedScene> kernel_scenes() {
     std::vector<NamedScene> out;
     std::vector<std::filesystem::path> files;
@@ -55,8 +55,16 @@ struct NamedScene {
         d.film.height = 39;
         out.push_back({std::move(name), std::move(d)});
     };
-    for (EffectScene& s : effect_scenes())
+    for (EffectScene& s : effect_scenes()) {
+        if (s.effect == Effect::motion) {
+            SceneDescription mirrored = s.description;
+            std::vector<Shape>& group = mirrored.groups[0].shapes;
+            group[1].material = add_material(mirrored, Dielectric{});
+            group[2].material = add_material(mirrored, Conductor{});
+            add("moving glass and mirrors", std::move(mirrored));
+        }
         add("effect " + std::string(name(s.effect)), std::move(s.description));
+    }
     add("hills", hills(false));
     add("glass hills", hills(true));
     return out;

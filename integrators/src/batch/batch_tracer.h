@@ -20,6 +20,7 @@ KOKSMA_MATHS_END
 #include "bsdf_lanes.h"
 #include "batch_numbers.h"
 #include "ray_order.h"
+#include "mirrored_rays.h"
 #include "path_sums.h"
 #include "shadow_rays.h"
 #include "sky_places.h"
@@ -131,7 +132,12 @@ private:
         const auto each = [&](auto&& step) {
             for (std::size_t at = first; at < first + kGroup && at < count; at += kPack) step(at, Mask::first(count - at));
         };
-        if (!sorted_) each([&](std::size_t at, Mask active) { trace_pack(at, active); });
+        if (!sorted_) {
+            bool traced = false;
+            if constexpr (kDelta)
+                if (depth_ == 1) traced = trace_split(first, first + kGroup < count ? first + kGroup : count);
+            if (!traced) each([&](std::size_t at, Mask active) { trace_pack(at, active); });
+        }
         if constexpr (kEffects.has(Effect::environment) && kSmooth) {
             if (sky_drawn_) {
                 each([&](std::size_t at, Mask active) {
@@ -162,6 +168,39 @@ private:
         if constexpr (kInstancing) resolve_instances(sent, geometry).store(instance_ + at);
         geometry.store(geometry_ + at);
         primitive.store(primitive_ + at);
+        if (!order_.pays()) prefetch_triangles(scene_, active & (geometry != Int32(-1)), geometry, primitive);
+    }
+
+    /// What the rays of a group meet behind a camera ray's first surface, if some are mirrored or refracted there: these are coherent
+    /// still, so they are traced by themselves. @return  false: none is
+    bool trace_split(std::size_t first, std::size_t end) {
+        if (!mirrored_.sort(*paths_, first, end)) return false;
+        for (const auto& rays : mirrored_.rays())
+            for (std::size_t at = 0; at < rays.count; at += kPack)
+                trace_places(Int32::load(rays.place + at), Mask::first(rays.count - at), rays.coherence);
+        return true;
+    }
+
+    /// What the rays of a pack meet that are not side by side in the queue.
+    void trace_places(Int32 place, Mask active, Coherence coherence) {
+        const detail::PathQueue& q = *paths_;
+        const Vec3<Float> o = gather(q.o, place), d = gather(q.d, place);
+        const Mask sent = active & is_traceable(o, d);
+        Float time{};
+        if constexpr (kMotion) time = gather(q.time, place);
+        closest_hit(sent, o, d, Float(0.0f), Float(kInfinity), time, coherence);
+        Int32 geometry = as_int(UInt32::load(packet_.geometry));
+        const Int32 primitive = as_int(UInt32::load(packet_.primitive));
+        alignas(4 * kLanes) IntLanes places, geometries, primitives, instances;
+        if constexpr (kInstancing) resolve_instances(sent, geometry).store(instances);
+        place.store(places);
+        geometry.store(geometries);
+        primitive.store(primitives);
+        for_lanes(active, [&](int i) {
+            geometry_[places[i]] = geometries[i];
+            primitive_[places[i]] = primitives[i];
+            if constexpr (kInstancing) instance_[places[i]] = instances[i];
+        });
         if (!order_.pays()) prefetch_triangles(scene_, active & (geometry != Int32(-1)), geometry, primitive);
     }
 
@@ -292,21 +331,8 @@ private:
 
     /// Finds what the rays of the queue meet, neighbours in direction and place together.
     void trace_in_order(std::size_t count) {
-        const detail::PathQueue& q = *paths_;
-        const std::size_t good = order_.sort(q.o, q.d, count);
-        for (std::size_t at = 0; at < good; at += kPack) {
-            const Mask active = Mask::first(good - at);
-            const Int32 place = order_.place(at);
-            closest_hit(active, {gather(q.o.x, place), gather(q.o.y, place), gather(q.o.z, place)},
-                        {gather(q.d.x, place), gather(q.d.y, place), gather(q.d.z, place)}, Float(0.0f), Float(kInfinity), Float(0.0f),
-                        Coherence::coherent);
-            alignas(4 * kLanes) IntLanes places;
-            place.store(places);
-            for (std::size_t i = 0; i < kPack && at + i < good; ++i) {
-                geometry_[places[i]] = static_cast<std::int32_t>(packet_.geometry[i]);
-                primitive_[places[i]] = static_cast<std::int32_t>(packet_.primitive[i]);
-            }
-        }
+        const std::size_t good = order_.sort(paths_->o, paths_->d, count);
+        for (std::size_t at = 0; at < good; at += kPack) trace_places(order_.place(at), Mask::first(good - at), Coherence::coherent);
     }
 
     void hash_hits(Mask active, Int32 geometry, Int32 primitive, Int32 instance) {
@@ -439,6 +465,7 @@ private:
     EscapedRays<kGroup> escaped_;
     SkySamples<kEffects, kGroup> sky_;
     RayOrder order_;
+    MirroredRays<kEffects, kGroup> mirrored_;
     RayPacket<kLanes> packet_{};
     alignas(64) detail::IntRow geometry_{}, primitive_{}, instance_{};  // what the rays met
     alignas(4 * kLanes) IntLanes valid_{}, slots_{};

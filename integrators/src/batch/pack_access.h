@@ -10,6 +10,10 @@ template <std::size_t kRow>
     return {Float::load(rows.x + at), Float::load(rows.y + at), Float::load(rows.z + at)};
 }
 template <std::size_t kRow>
+[[nodiscard]] Vec3<Float> gather(const detail::VectorRowsOf<kRow>& rows, Int32 index) {
+    return {gather(rows.x, index), gather(rows.y, index), gather(rows.z, index)};
+}
+template <std::size_t kRow>
 void store(const Vec3<Float>& v, detail::VectorRowsOf<kRow>& rows, std::size_t at) {
     v.x.store(rows.x + at);
     v.y.store(rows.y + at);
