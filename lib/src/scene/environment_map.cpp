@@ -8,6 +8,8 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <span>
+#include <vector>
 
 namespace koksma {
 
@@ -19,6 +21,32 @@ Vec3f row_of(const glm::dmat3& m, int row) {
 
 constexpr double kPiDouble = std::numbers::pi;
 
+/// Where each weight begins in [0, kWhole), and kWhole: one part to each weight that is not zero, the rest in proportion.
+std::vector<std::int32_t> beginnings(std::span<const double> weights) {
+    const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
+    const auto positive = static_cast<std::int32_t>(std::count_if(weights.begin(), weights.end(), [](double w) { return w > 0.0; }));
+    std::vector<std::int32_t> begin;
+    double sum = 0.0;
+    std::int32_t before = 0;
+    for (const double w : weights) {
+        begin.push_back(before + (total > 0.0 ? static_cast<std::int32_t>(sum / total * (kWhole - positive)) : 0));
+        sum += w;
+        before += w > 0.0 ? 1 : 0;
+    }
+    begin.push_back(kWhole);
+    return begin;
+}
+
+/// Adds a row to the guide of an InversionTable.
+void append_guide(std::span<const std::int32_t> begin, std::vector<std::int32_t>& guide) {
+    const auto entries = static_cast<std::int32_t>(begin.size()) - 1, parts = guide_parts(entries);
+    std::int32_t i = 0;
+    for (std::int32_t part = 0; part <= parts; ++part) {
+        while (i + 1 < entries && begin[static_cast<std::size_t>(i + 1)] <= part * (kWhole / parts)) ++i;
+        guide.push_back(i);
+    }
+}
+
 }  // namespace
 
 EnvironmentMap::EnvironmentMap(const MapEnvironment& description) : width_(description.image->width), height_(description.image->height) {
@@ -27,6 +55,12 @@ EnvironmentMap::EnvironmentMap(const MapEnvironment& description) : width_(descr
     if (height_ == 1) height_ = 2;  // one row: both poles see it
     const auto texel = [&](int y, int x) {
         return Vec3f(image.texels[static_cast<std::size_t>(y % image_rows) * width_ + x % width_]) * description.scale;
+    };
+
+    texels_.reserve(static_cast<std::size_t>(width_ + 1) * height_ * 4);
+    const auto append_texel = [&](int y, int x, std::int32_t begin) {
+        const Vec3f radiance = texel(y, x);
+        for (const float f : {radiance.x, radiance.y, radiance.z, std::bit_cast<float>(begin)}) texels_.push_back(f);
     };
 
     glm::dmat3 to_world(description.to_world);
@@ -56,48 +90,21 @@ EnvironmentMap::EnvironmentMap(const MapEnvironment& description) : width_(descr
             row_sum += weights[x];
             sum += cell * (band(y) / width_);
         }
-        columns_.add_row(weights);
+        const std::vector<std::int32_t> begin = beginnings(weights);
+        append_guide(begin, column_guide_);
+        for (int x = 0; x <= width_; ++x) append_texel(y, x, begin[x]);
         row_weights.push_back(row_sum);
         black_ = black_ && !(row_sum > 0.0);
     }
-    const auto begin = rows_.add_row(row_weights);
+    for (int x = 0; x <= width_; ++x) append_texel(rows, x, 0);
+    const std::vector<std::int32_t> begin = beginnings(row_weights);
+    append_guide(begin, row_guide_);
+    for (const std::int32_t b : begin) row_begin_.push_back(std::bit_cast<float>(b));
     for (int y = 0; y < rows; ++y) {
         const double row_parts = row_weights[y] > 0.0 ? begin[y + 1] - begin[y] : 0;
         row_density_.push_back(static_cast<float>(row_parts / kWhole / kWhole * width_ / band(y)));
     }
     mean_ = to_float(sum * (1.0 / (4.0 * kPiDouble)));
-    texels_.reserve(static_cast<std::size_t>(width_ + 1) * height_ * 4);
-    const std::int32_t* part = columns_.table().begin;
-    for (int y = 0; y < height_; ++y)
-        for (int x = 0; x <= width_; ++x) {
-            const Vec3f radiance = texel(y, x);
-            for (const float c : {radiance.x, radiance.y, radiance.z}) texels_.push_back(c);
-            texels_.push_back(std::bit_cast<float>(y < rows ? *part++ : 0));
-        }
-}
-
-std::span<const std::int32_t> EnvironmentMap::Distributions::add_row(std::span<const double> weights) {
-    entries_ = static_cast<std::int32_t>(weights.size());
-    parts_ = static_cast<std::int32_t>(std::bit_ceil(weights.size()));
-    const std::size_t first = begin_.size();
-    // One part to each weight that is not zero, the rest in proportion.
-    const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
-    const auto positive = static_cast<std::int32_t>(std::count_if(weights.begin(), weights.end(), [](double w) { return w > 0.0; }));
-    double sum = 0.0;
-    std::int32_t before = 0;
-    for (const double w : weights) {
-        begin_.push_back(before + (total > 0.0 ? static_cast<std::int32_t>(sum / total * (kWhole - positive)) : 0));
-        sum += w;
-        before += w > 0.0 ? 1 : 0;
-    }
-    begin_.push_back(kWhole);
-    const std::span<const std::int32_t> begin = std::span(begin_).subspan(first);
-    std::int32_t i = 0;
-    for (std::int32_t part = 0; part <= parts_; ++part) {
-        while (i + 1 < entries_ && begin[static_cast<std::size_t>(i + 1)] <= part * (kWhole / parts_)) ++i;
-        guide_.push_back(i);
-    }
-    return begin;
 }
 
 }  // namespace koksma

@@ -6,7 +6,7 @@
 #include <koksma/scene/environment_value.h>
 #include <koksma/math/vec3.h>
 
-#include <span>
+#include <cstdint>
 #include <vector>
 
 namespace koksma {
@@ -23,30 +23,24 @@ public:
     [[nodiscard]] bool is_black() const noexcept { return black_; }
     /// For environment_direction(): draws by cells. @pre  !is_black()
     [[nodiscard]] EnvironmentCells cells() const noexcept {
-        return {rows_.table(), columns_.table(), half_sine2_.data(), axis_x_, axis_y_, axis_z_};
+        return {{height_ - 1, guide_parts(height_ - 1), row_begin_.data(), row_guide_.data()},
+                {width_, guide_parts(width_), texels_.data() + 3, column_guide_.data()},
+                half_sine2_.data(),
+                axis_x_,
+                axis_y_,
+                axis_z_};
     }
     /// Mean radiance over the sphere.
     [[nodiscard]] Vec3f mean_radiance() const noexcept { return mean_; }
 
 private:
-    /// The memory of an InversionTable.
-    class Distributions {
-    public:
-        /// @param weights  of one row, finite, >= 0. @return  the parts of kWhole that each has, the whole of all
-        std::span<const std::int32_t> add_row(std::span<const double> weights);
-        [[nodiscard]] InversionTable table() const noexcept { return {entries_, parts_, begin_.data(), guide_.data()}; }
-
-    private:
-        std::int32_t entries_ = 0, parts_ = 0;
-        std::vector<std::int32_t> begin_, guide_;
-    };
-
     int width_, height_;             ///< cells per row (wrapping), rows of texels
     std::vector<float> texels_;      ///< as in EnvironmentTable
     Vec3f axis_x_, axis_y_, axis_z_; ///< rows of world-to-map
     std::vector<float> half_sine2_;  ///< sin^2 of half the polar angle of each row of texels
     std::vector<float> row_density_;
-    Distributions rows_, columns_;
+    std::vector<float> row_begin_;   ///< as InversionTable::begin
+    std::vector<std::int32_t> row_guide_, column_guide_;
     bool black_ = true;
     Vec3f mean_{0.0f};
 };
