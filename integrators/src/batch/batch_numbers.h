@@ -16,16 +16,20 @@ public:
     }
 
     void begin_batch() {
-        constexpr std::uint64_t kTimedEvery = 4;  // batches: a clock is dear beside a fill, and cheap beside four batches
+        constexpr std::uint64_t kTimedEvery = 32;  // batches: a clock is dear beside the fill of a group
         timed_ = batch_++ % kTimedEvery == 0;
     }
     [[nodiscard]] bool timed() const { return timed_; }
-    void fill_camera(std::span<const SampleId> ids) { fill(ids, plan_.layout.camera()); }
-    void fill_bounce(std::size_t bounce, std::span<const SampleId> ids) {
+    void fill_camera(std::span<const SampleId> ids) { fill(ids, plan_.layout.camera(), 0); }
+    /// @param queue  of the paths; later read for those that are filled
+    void begin_bounce(std::size_t bounce, std::span<const SampleId> queue) {
         bounce_ = bounce;
-        ids_ = ids;
+        ids_ = queue;
         slots_ = bounce < plan_.bounces.size() ? &plan_.bounces[bounce] : nullptr;
-        if (slots_ != nullptr) fill(ids, plan_.layout.bounce(bounce));
+    }
+    /// The numbers of paths side by side in the queue, before any of theirs is asked for.
+    void fill_bounce(std::size_t first, std::size_t count) {
+        if (slots_ != nullptr) fill(ids_.subspan(first, count), plan_.layout.bounce(bounce_), first);
     }
 
     /// True where the bounce has slots: asking for a number does not draw it then.
@@ -59,9 +63,9 @@ private:
         });
         return lanes.pack();
     }
-    void fill(std::span<const SampleId> ids, SlotRun run) {
+    void fill(std::span<const SampleId> ids, SlotRun run, std::size_t at) {
         const double start = timed_ ? thread_seconds() : 0.0;
-        source_.fill(ids, run, first_, detail::kBatchRow);
+        source_.fill(ids, run, first_ + at, detail::kBatchRow);
         if (timed_) stats_.sampler_seconds += thread_seconds() - start;
     }
 

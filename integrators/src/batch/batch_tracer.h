@@ -65,13 +65,13 @@ public:
         alive_ = ids.size();
         for (depth_ = 0; alive_ > 0; ++depth_) {
             last_vertex_ = settings_.max_depth >= 0 && depth_ + 1 >= settings_.max_depth;
-            if (!last_vertex_) numbers_.fill_bounce(static_cast<std::size_t>(depth_), {paths_->id, alive_});
-            if constexpr (kEffects.has(Effect::environment) && kSmooth) sky_drawn_ = sky_.usable() && !last_vertex_ && numbers_.are_laid_out();
             const std::size_t count = alive_;
+            if (!last_vertex_) numbers_.begin_bounce(static_cast<std::size_t>(depth_), {paths_->id, count});
+            if constexpr (kEffects.has(Effect::environment) && kSmooth) sky_drawn_ = sky_.usable() && !last_vertex_ && numbers_.are_laid_out();
             alive_ = 0;
             sorted_ = depth_ > 0 && order_.pays();  // never by the number of rays: Embree answers by flag
             if (sorted_) trace_in_order(count);
-            for (std::size_t at = 0; at < count; at += kGroup) bounce_group(at, count);
+            for (std::size_t at = 0; at < count; at += kGroup) bounce_group(at, at + kGroup < count ? at + kGroup : count);
             stats_.rays.shadow += shadows_.trace(sorted_ ? &order_ : nullptr, sums_);
         }
     }
@@ -128,22 +128,17 @@ private:
     }
 
     /// A few packs of paths, in steps.
-    void bounce_group(std::size_t first, std::size_t count) {
+    void bounce_group(std::size_t first, std::size_t end) {
+        if (!sorted_) trace_group(first, end);
+        const std::size_t hits = settle(first, end);
         const auto each = [&](auto&& step) {
-            for (std::size_t at = first; at < first + kGroup && at < count; at += kPack) step(at, Mask::first(count - at));
+            for (std::size_t at = first; at < hits; at += kPack) step(at, Mask::first(hits - at));
         };
-        if (!sorted_) {
-            bool traced = false;
-            if constexpr (kDelta)
-                if (depth_ == 1) traced = trace_split(first, first + kGroup < count ? first + kGroup : count);
-            if (!traced) each([&](std::size_t at, Mask active) { trace_pack(at, active); });
-        }
+        if (!last_vertex_ && hits > first) numbers_.fill_bounce(first, hits - first);
         if constexpr (kEffects.has(Effect::environment) && kSmooth) {
             if (sky_drawn_) {
                 each([&](std::size_t at, Mask active) {
-                    const Int32 geometry = Int32::load(geometry_ + at);
-                    sky_.want(at - first, active & (geometry != Int32(-1)), geometry,
-                              numbers_.get_2d(at, active, SlotRole::light_position, &BounceSlots::light_position));
+                    sky_.want(at - first, active, Int32::load(geometry_ + at), numbers_.get_2d(at, active, SlotRole::light_position, &BounceSlots::light_position));
                 });
                 sky_.draw();
             }
@@ -152,6 +147,54 @@ private:
         each([&](std::size_t at, Mask active) { bounce(at, active); });
         if constexpr (kEffects.has(Effect::environment)) escaped_.add(sums_);
     }
+
+    /// What the rays of a group meet.
+    void trace_group(std::size_t first, std::size_t end) {
+        if constexpr (kDelta)
+            if (depth_ == 1 && trace_split(first, end)) return;
+        for (std::size_t at = first; at < end; at += kPack) trace_pack(at, Mask::first(end - at));
+    }
+
+    /// Takes leave of those paths of a group that met nothing, and moves the others together, so that packs are full.
+    /// @return  where these end
+    std::size_t settle(std::size_t first, std::size_t end) {
+        const detail::PathQueue& q = *paths_;
+        std::size_t to = first;
+        for (std::size_t at = first; at < end; at += kPack) {
+            Int32::load(q.slot + at).store(slots_);
+            const Vec3<Float> d = load(q.d, at);
+            const Mask active = only_traceable(Mask::first(end - at), load(q.o, at), d);
+            stats_.rays.closest += static_cast<std::uint64_t>(count(active));
+            const Int32 geometry = Int32::load(geometry_ + at);
+            if (!sums_.hashes.empty()) hash_hits(active, geometry, at);
+            const Mask hit = active & (geometry != Int32(-1));
+            if constexpr (kEffects.has(Effect::environment))
+                if (const Mask escaped = active & !hit; any(escaped)) queue_escaped(at, escaped, d, load(q.beta, at));
+            to = move_together(hit, at, to);
+        }
+        return to;
+    }
+
+    /// @param to  where the paths before end; not beyond `at`
+    /// @return  the same of those and these
+    std::size_t move_together(Mask which, std::size_t at, std::size_t to) {
+        const auto n = static_cast<std::size_t>(count(which));
+        if (to == at && (n == kPack || lane_bits(which) == (1u << n) - 1)) return to + n;  // they are
+        detail::PathQueue& q = *paths_;
+        const auto move = [&](auto&... rows) { (move_row(which, rows, at, to), ...); };
+        move(q.o.x, q.o.y, q.o.z, q.d.x, q.d.y, q.d.z, q.beta.x, q.beta.y, q.beta.z, q.slot, geometry_, primitive_);
+        if constexpr (kEffects.has(Effect::area_light)) move(q.pdf, q.delta);  // what a light that is met asks
+        if constexpr (kPosition) move(q.last_p.x, q.last_p.y, q.last_p.z);
+        if constexpr (kEffects.has(Effect::many_lights)) move(q.last_n.x, q.last_n.y, q.last_n.z);
+        if constexpr (kInstancing) move(instance_);
+        if constexpr (kMotion) move(q.time);
+        if constexpr (kEffects.has(Effect::dielectric)) move(q.eta_scale);
+        if constexpr (kEffects.has(Effect::roulette)) move(q.lossless);
+        for_lanes(which, [&](int i) { q.id[to++] = q.id[at + static_cast<std::size_t>(i)]; });
+        return to;
+    }
+    static void move_row(Mask which, detail::FloatRow& row, std::size_t at, std::size_t to) { Float::load(row + at).compress_store(which, row + to); }
+    static void move_row(Mask which, detail::IntRow& row, std::size_t at, std::size_t to) { Int32::load(row + at).compress_store(which, row + to); }
 
     /// What the rays of a pack meet.
     void trace_pack(std::size_t at, Mask active) {
@@ -205,27 +248,17 @@ private:
     }
 
     /// One pack of paths: from what its rays met to the next rays.
-    KOKSMA_FLATTEN void bounce(std::size_t at, Mask active) {
+    KOKSMA_FLATTEN void bounce(std::size_t at, Mask hit) {
         detail::PathQueue& q = *paths_;
         const Vec3<Float> o = load(q.o, at), d = load(q.d, at);
         Vec3<Float> beta = load(q.beta, at);
         Int32::load(q.slot + at).store(slots_);
-
-        // ---- where the rays go
-        active = only_traceable(active, o, d);
-        if (!any(active)) return;
         const Int32 geometry = Int32::load(geometry_ + at), primitive = Int32::load(primitive_ + at);
         Int32 instance(-1);
         Float time{};
         if constexpr (kInstancing)
             if (!sorted_) instance = Int32::load(instance_ + at);  // scenes that are sorted have none
         if constexpr (kMotion) time = Float::load(q.time + at);
-        stats_.rays.closest += static_cast<std::uint64_t>(count(active));
-        if (!sums_.hashes.empty()) hash_hits(active, geometry, primitive, instance);
-        const Mask hit = active & (geometry != Int32(-1));
-        if constexpr (kEffects.has(Effect::environment))
-            if (const Mask escaped = active & !hit; any(escaped)) queue_escaped(at, escaped, d, beta);
-        if (!any(hit)) return;
         const SurfacePack surface = surface_pack<kEffects>(scene_, hit, o, d, geometry, primitive, instance, time);
         const Vec3<Float> wo = -d;
 
@@ -335,15 +368,15 @@ private:
         for (std::size_t at = 0; at < good; at += kPack) trace_places(order_.place(at), Mask::first(good - at), Coherence::coherent);
     }
 
-    void hash_hits(Mask active, Int32 geometry, Int32 primitive, Int32 instance) {
-        alignas(4 * kLanes) IntLanes g, p, through;
+    void hash_hits(Mask active, Int32 geometry, std::size_t at) {
+        alignas(4 * kLanes) IntLanes g;
         geometry.store(g);
-        primitive.store(p);
-        instance.store(through);
         for_lanes(active, [&](int i) {
-            const auto met = static_cast<std::uint32_t>(g[i]), which = met == Hit::kNone ? Hit::kNone : static_cast<std::uint32_t>(p[i]);
+            const std::size_t path = at + static_cast<std::size_t>(i);
+            const auto met = static_cast<std::uint32_t>(g[i]), which = met == Hit::kNone ? Hit::kNone : static_cast<std::uint32_t>(primitive_[path]);
             sums_.hash(slots_[i], (std::uint64_t{met} << 32) | which);
-            if (kInstancing && through[i] != -1) sums_.hash(slots_[i], static_cast<std::uint32_t>(through[i]));
+            if constexpr (kInstancing)
+                if (!sorted_ && instance_[path] != -1) sums_.hash(slots_[i], static_cast<std::uint32_t>(instance_[path]));
         });
     }
 

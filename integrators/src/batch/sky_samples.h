@@ -29,8 +29,8 @@ public:
     /// @param at        place in the group of the pack's first path
     /// @param geometry  that the paths met
     /// @param u         the slot of the light's position
-    void want(std::size_t at, Mask hit, Int32 geometry, const Vec2<Float>& u) {
-        const Mask asks = hit & (gather(asks_.data(), select(hit, geometry, Int32(0))) != Int32(0));
+    void want(std::size_t at, Mask active, Int32 geometry, const Vec2<Float>& u) {
+        const Mask asks = active & (gather(asks_.data(), select(active, geometry, Int32(0))) != Int32(0));
         u.x.compress_store(asks, x_ + count_);
         u.y.compress_store(asks, y_ + count_);
         count_ += (iota(static_cast<std::int32_t>(at))).compress_store(asks, path_ + count_);
