@@ -10,6 +10,7 @@
 #include "flatten.h"
 #include "kernel_sets.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>

@@ -51,7 +51,8 @@ public:
           shadows_(job.scene),
           escaped_(job.scene),
           sky_(job.scene),
-          order_(job.scene) {
+          order_(job.scene),
+          surfaces_shine_(std::ranges::any_of(job.scene.geometries, [](const GeometryRecord& g) { return g.light >= 0; })) {
         for (std::uint32_t& m : packet_.mask) m = ~0u;
     }
 
@@ -140,9 +141,12 @@ private:
                 each([&](std::size_t at, Mask active) {
                     sky_.want(at - first, active, Int32::load(geometry_ + at), numbers_.get_2d(at, active, SlotRole::light_position, &BounceSlots::light_position));
                 });
-                sky_.draw();
+                sky_.find();
             }
         }
+        if constexpr (kEffects.has(Effect::environment)) escaped_.find();
+        if constexpr (kEffects.has(Effect::environment) && kSmooth)
+            if (sky_drawn_) sky_.draw();
         group_ = first;
         each([&](std::size_t at, Mask active) { bounce(at, active); });
         if constexpr (kEffects.has(Effect::environment)) escaped_.add(sums_);
@@ -183,9 +187,11 @@ private:
         detail::PathQueue& q = *paths_;
         const auto move = [&](auto&... rows) { (move_row(which, rows, at, to), ...); };
         move(q.o.x, q.o.y, q.o.z, q.d.x, q.d.y, q.d.z, q.beta.x, q.beta.y, q.beta.z, q.slot, geometry_, primitive_);
-        if constexpr (kEffects.has(Effect::area_light)) move(q.pdf, q.delta);  // what a light that is met asks
-        if constexpr (kPosition) move(q.last_p.x, q.last_p.y, q.last_p.z);
-        if constexpr (kEffects.has(Effect::many_lights)) move(q.last_n.x, q.last_n.y, q.last_n.z);
+        if constexpr (kEffects.has(Effect::area_light))
+            if (surfaces_shine_) {  // they ask how they were met
+                move(q.pdf, q.delta, q.last_p.x, q.last_p.y, q.last_p.z);
+                if constexpr (kEffects.has(Effect::many_lights)) move(q.last_n.x, q.last_n.y, q.last_n.z);
+            }
         if constexpr (kInstancing) move(instance_);
         if constexpr (kMotion) move(q.time);
         if constexpr (kEffects.has(Effect::dielectric)) move(q.eta_scale);
@@ -499,6 +505,7 @@ private:
     SkySamples<kEffects, kGroup> sky_;
     RayOrder order_;
     MirroredRays<kEffects, kGroup> mirrored_;
+    const bool surfaces_shine_;
     RayPacket<kLanes> packet_{};
     alignas(64) detail::IntRow geometry_{}, primitive_{}, instance_{};  // what the rays met
     alignas(4 * kLanes) IntLanes valid_{}, slots_{};

@@ -21,14 +21,17 @@ public:
         count_ += slot.compress_store(escaped, slot_ + count_);
     }
 
-    /// Adds what they bring: first all places in the map, so that it is there when it is read. None is left.
+    /// Finds their places in the map, which are on their way to the cache from now on.
+    void find() {
+        if (!scene_.environment_map) return;
+        const EnvironmentTable table = scene_.environment_map->table();
+        for (std::size_t at = 0; at < count_; at += kPack) places_.find(table, at, Mask::first(count_ - at), load(d_, at));
+    }
+
+    /// Adds what they bring. None is left. @pre  find() since the last queue()
     void add(PathSums& sums) {
         const bool mapped = scene_.environment_map.has_value();
         const EnvironmentTable table = mapped ? scene_.environment_map->table() : EnvironmentTable{};
-        for (std::size_t at = 0; mapped && at < count_; at += kPack) {
-            const Mask active = Mask::first(count_ - at);
-            places_.find(table, at, active, load(d_, at));
-        }
         for (std::size_t at = 0; at < count_; at += kPack) {
             const Float pdf = Float::load(pdf_ + at);
             const Mask active = Mask::first(count_ - at), delta = pdf < Float(0.0f);

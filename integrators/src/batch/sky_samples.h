@@ -36,17 +36,20 @@ public:
         count_ += (iota(static_cast<std::int32_t>(at))).compress_store(asks, path_ + count_);
     }
 
-    /// Draws all that are wanted: first all places in the map, so that it is there when it is read.
-    void draw() {
+    /// Draws the directions of all that are wanted. Their places in the map are on their way to the cache from now on.
+    void find() {
         const EnvironmentTable table = scene_.environment_map->table();
         const EnvironmentCells cells = scene_.environment_map->cells();
         for (std::size_t at = 0; at < count_; at += kPack) {
             // Lanes beyond the last hold old numbers or zeros: any will do.
             const Vec3<Float> wi = environment_direction(cells, Vec2<Float>{Float::load(x_ + at), Float::load(y_ + at)});
             store(wi, direction_, at);
-            const Mask active = Mask::first(count_ - at);
-            places_.find(table, at, active, wi);
+            places_.find(table, at, Mask::first(count_ - at), wi);
         }
+    }
+    /// What comes from there. @pre  find()
+    void draw() {
+        const EnvironmentTable table = scene_.environment_map->table();
         for (std::size_t at = 0; at < count_; at += kPack) {
             const EnvironmentValueOf<Float> value = environment_at(table, places_.get(at));
             const VectorLanes radiance(value.radiance);
