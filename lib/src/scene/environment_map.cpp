@@ -38,7 +38,8 @@ std::vector<std::int32_t> beginnings(std::span<const double> weights) {
 }
 
 /// Adds a row to the guide of an InversionTable.
-void append_guide(std::span<const std::int32_t> begin, std::vector<std::int32_t>& guide) {
+template <class Vector>
+void append_guide(std::span<const std::int32_t> begin, Vector& guide) {
     const auto entries = static_cast<std::int32_t>(begin.size()) - 1, parts = guide_parts(entries);
     std::int32_t i = 0;
     for (std::int32_t part = 0; part <= parts; ++part) {
@@ -57,6 +58,7 @@ EnvironmentMap::EnvironmentMap(const MapEnvironment& description) : width_(descr
         return Vec3f(image.texels[static_cast<std::size_t>(y % image_rows) * width_ + x % width_]) * description.scale;
     };
 
+    column_guide_.reserve(static_cast<std::size_t>(guide_parts(width_) + 1) * (height_ - 1));
     texels_.reserve(static_cast<std::size_t>(width_ + 1) * height_ * 4);
     const auto append_texel = [&](int y, int x, std::int32_t begin) {
         const Vec3f radiance = texel(y, x);

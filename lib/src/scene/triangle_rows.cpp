@@ -26,8 +26,8 @@ void for_triangles(const Scene& scene, F&& f) {
 
 }  // namespace
 
-std::vector<TriangleRow> triangle_rows(const Scene& scene) {
-    std::vector<TriangleRow> rows(scene.triangles.size());
+LargeVector<TriangleRow> triangle_rows(const Scene& scene) {
+    LargeVector<TriangleRow> rows(scene.triangles.size());
     for_triangles(scene, [&](const GeometryRecord& g, std::size_t t) {
         TriangleRow& row = rows[t];
         const auto& index = scene.triangles[t];
@@ -42,9 +42,9 @@ std::vector<TriangleRow> triangle_rows(const Scene& scene) {
     return rows;
 }
 
-std::vector<ShadingRow> shading_rows(const Scene& scene) {
+LargeVector<ShadingRow> shading_rows(const Scene& scene) {
     if (!scene.effects.has(Effect::shading_normals) && !scene.effects.has(Effect::texture) && !scene.effects.has(Effect::anisotropic)) return {};
-    std::vector<ShadingRow> rows(scene.triangles.size());
+    LargeVector<ShadingRow> rows(scene.triangles.size());
     for_triangles(scene, [&](const GeometryRecord& g, std::size_t t) {
         ShadingRow& row = rows[t];
         const auto& index = scene.triangles[t];

@@ -5,6 +5,7 @@
 #include <koksma/scene/environment_direction.h>
 #include <koksma/scene/environment_value.h>
 #include <koksma/math/vec3.h>
+#include <koksma/scene/huge_pages.h>
 
 #include <cstdint>
 #include <vector>
@@ -35,12 +36,13 @@ public:
 
 private:
     int width_, height_;             ///< cells per row (wrapping), rows of texels
-    std::vector<float> texels_;      ///< as in EnvironmentTable
+    LargeVector<float> texels_;     ///< as in EnvironmentTable
     Vec3f axis_x_, axis_y_, axis_z_; ///< rows of world-to-map
     std::vector<float> half_sine2_;  ///< sin^2 of half the polar angle of each row of texels
     std::vector<float> row_density_;
     std::vector<float> row_begin_;   ///< as InversionTable::begin
-    std::vector<std::int32_t> row_guide_, column_guide_;
+    std::vector<std::int32_t> row_guide_;
+    LargeVector<std::int32_t> column_guide_;
     bool black_ = true;
     Vec3f mean_{0.0f};
 };

@@ -119,8 +119,8 @@ struct Scene {
     std::vector<Vec3f> positions, normals;
     std::vector<glm::vec2> uvs;
     std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices into positions, normals and uvs alike
-    std::vector<TriangleRow> triangle_rows;  ///< the same, as packs read them
-    std::vector<ShadingRow> shading_rows;
+    LargeVector<TriangleRow> triangle_rows;  ///< the same, as packs read them
+    LargeVector<ShadingRow> shading_rows;
     std::vector<AnalyticSphere> spheres;
     std::vector<AnalyticDisk> disks;
     std::vector<AnalyticCylinder> cylinders;

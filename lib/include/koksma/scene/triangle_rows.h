@@ -2,9 +2,9 @@
 // Triangles as the batch kernel reads them: all that a hit asks for in one line of the cache, two with what is interpolated.
 
 #include <koksma/math/vec3.h>
+#include <koksma/scene/huge_pages.h>
 
 #include <cstdint>
-#include <vector>
 
 namespace koksma {
 
@@ -27,9 +27,9 @@ struct alignas(64) ShadingRow {
 static_assert(sizeof(TriangleRow) == 64 && sizeof(ShadingRow) == 64);
 
 /// One for each entry of Scene::triangles.
-[[nodiscard]] std::vector<TriangleRow> triangle_rows(const Scene& scene);
+[[nodiscard]] LargeVector<TriangleRow> triangle_rows(const Scene& scene);
 
 /// The same; none if the scene asks neither for shading normals nor for texture coordinates.
-[[nodiscard]] std::vector<ShadingRow> shading_rows(const Scene& scene);
+[[nodiscard]] LargeVector<ShadingRow> shading_rows(const Scene& scene);
 
 }  // namespace koksma
