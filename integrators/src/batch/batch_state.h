@@ -42,6 +42,12 @@ struct alignas(64) PathQueue {
     SampleId id[kBatchRow];      ///< the same, for the sampler
 };
 
+/// What the rays of the paths met.
+struct alignas(64) Met {
+    IntRow geometry, primitive;  ///< geometry -1: nothing
+    IntRow instance;             ///< -1: seen without one
+};
+
 /// Shadow rays of one bounce, with what they bring if nothing is in the way.
 struct alignas(64) ShadowQueue {
     VectorRows o, d;

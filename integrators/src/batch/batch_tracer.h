@@ -21,6 +21,8 @@ KOKSMA_MATHS_END
 #include "batch_numbers.h"
 #include "ray_order.h"
 #include "mirrored_rays.h"
+#include "path_moves.h"
+#include "camera_paths.h"
 #include "path_sums.h"
 #include "shadow_rays.h"
 #include "sky_places.h"
@@ -62,7 +64,8 @@ public:
         numbers_.begin_batch();
         if (numbers_.timed()) stats_.timed_paths += ids.size();
         if (settings_.max_depth == 0) return;
-        start_paths(ids);
+        numbers_.fill_camera(ids);
+        start_paths<kEffects>(scene_.camera, numbers_, ids, *paths_);
         alive_ = ids.size();
         for (depth_ = 0; alive_ > 0; ++depth_) {
             last_vertex_ = settings_.max_depth >= 0 && depth_ + 1 >= settings_.max_depth;
@@ -78,56 +81,6 @@ public:
     }
 
 private:
-    /// Camera rays.
-    void start_paths(std::span<const SampleId> ids) {
-        detail::PathQueue& q = *paths_;
-        numbers_.fill_camera(ids);
-        for (std::size_t at = 0; at < ids.size(); at += kPack) {
-            const Vec2<Float> film = film_points(ids.subspan(at), numbers_.film(at));
-            for (std::size_t i = at; i < at + kPack && i < ids.size(); ++i) q.id[i] = ids[i];
-            Vec2<Float> u_lens{};
-            if constexpr (kEffects.has(Effect::lens)) u_lens = numbers_.lens(at);
-            const CameraRayOf<Float> ray = camera_ray(scene_.camera, film, u_lens);
-            store(ray.o, q.o, at);
-            store(ray.d, q.d, at);
-            ray.t_near.store(q.t_near + at);
-            ray.t_far.store(q.t_far + at);
-            store(Vec3<Float>(Float(1.0f)), q.beta, at);
-            if constexpr (kMotion) numbers_.time(at).store(q.time + at);
-            if constexpr (kEffects.has(Effect::dielectric)) Float(1.0f).store(q.eta_scale + at);
-            Float(0.0f).store(q.pdf + at);
-            Int32(-1).store(q.delta + at);
-            if constexpr (kEffects.has(Effect::roulette)) Int32(0).store(q.lossless + at);
-            if constexpr (kPosition) store(Vec3<Float>(Float(0.0f)), q.last_p, at);
-            if constexpr (kEffects.has(Effect::many_lights)) store(Vec3<Float>{Float(0.0f), Float(0.0f), Float(1.0f)}, q.last_n, at);
-            iota(static_cast<std::int32_t>(at)).store(q.slot + at);
-        }
-    }
-
-    /// As koksma::film_point, of the first samples. @param u  anything in lanes without a sample
-    [[nodiscard]] Vec2<Float> film_points(std::span<const SampleId> ids, const Vec2<Float>& u) const {
-        const CompiledCamera& c = scene_.camera;
-        if (c.filter.is_pixel()) {
-            alignas(4 * kLanes) IntLanes x{}, y{};
-            for (std::size_t i = 0; i < kPack && i < ids.size(); ++i) {
-                x[i] = ids[i].pixel.x;
-                y[i] = ids[i].pixel.y;
-            }
-            const auto along = [](Int32 pixel, Float u, double width, double offset, double half) {
-                const Double f = (Double::of(pixel) + Double::of(u)) * Double::of(width) + Double::of(offset);
-                return ((Double::of(1.0) - Double::of(2.0) * f) * Double::of(half)).rounded();
-            };
-            return {along(Int32::load(x), u.x, c.pixel_width, c.offset_x, c.half_width), along(Int32::load(y), u.y, c.pixel_height, c.offset_y, c.half_height)};
-        }
-        NumberLanes x(u.x), y(u.y);
-        for (std::size_t i = 0; i < kPack && i < ids.size(); ++i) {
-            const Vec2f film = film_point(c, ids[i].pixel.x, ids[i].pixel.y, {x.x[i], y.x[i]});
-            x.x[i] = film.x;
-            y.x[i] = film.y;
-        }
-        return {x.pack(), y.pack()};
-    }
-
     /// A few packs of paths, in steps.
     void bounce_group(std::size_t first, std::size_t end) {
         if (!sorted_) trace_group(first, end);
@@ -139,7 +92,7 @@ private:
         if constexpr (kEffects.has(Effect::environment) && kSmooth) {
             if (sky_drawn_) {
                 each([&](std::size_t at, Mask active) {
-                    sky_.want(at - first, active, Int32::load(geometry_ + at), numbers_.get_2d(at, active, SlotRole::light_position, &BounceSlots::light_position));
+                    sky_.want(at - first, active, Int32::load(met_.geometry + at), numbers_.get_2d(at, active, SlotRole::light_position, &BounceSlots::light_position));
                 });
                 sky_.find();
             }
@@ -169,38 +122,15 @@ private:
             const Vec3<Float> d = load(q.d, at);
             const Mask active = only_traceable(Mask::first(end - at), load(q.o, at), d);
             stats_.rays.closest += static_cast<std::uint64_t>(count(active));
-            const Int32 geometry = Int32::load(geometry_ + at);
+            const Int32 geometry = Int32::load(met_.geometry + at);
             if (!sums_.hashes.empty()) hash_hits(active, geometry, at);
             const Mask hit = active & (geometry != Int32(-1));
             if constexpr (kEffects.has(Effect::environment))
                 if (const Mask escaped = active & !hit; any(escaped)) queue_escaped(at, escaped, d, load(q.beta, at));
-            to = move_together(hit, at, to);
+            to = move_together<kEffects>(*paths_, met_, hit, at, to, surfaces_shine_);
         }
         return to;
     }
-
-    /// @param to  where the paths before end; not beyond `at`
-    /// @return  the same of those and these
-    std::size_t move_together(Mask which, std::size_t at, std::size_t to) {
-        const auto n = static_cast<std::size_t>(count(which));
-        if (to == at && (n == kPack || lane_bits(which) == (1u << n) - 1)) return to + n;  // they are
-        detail::PathQueue& q = *paths_;
-        const auto move = [&](auto&... rows) { (move_row(which, rows, at, to), ...); };
-        move(q.o.x, q.o.y, q.o.z, q.d.x, q.d.y, q.d.z, q.beta.x, q.beta.y, q.beta.z, q.slot, geometry_, primitive_);
-        if constexpr (kEffects.has(Effect::area_light))
-            if (surfaces_shine_) {  // they ask how they were met
-                move(q.pdf, q.delta, q.last_p.x, q.last_p.y, q.last_p.z);
-                if constexpr (kEffects.has(Effect::many_lights)) move(q.last_n.x, q.last_n.y, q.last_n.z);
-            }
-        if constexpr (kInstancing) move(instance_);
-        if constexpr (kMotion) move(q.time);
-        if constexpr (kEffects.has(Effect::dielectric)) move(q.eta_scale);
-        if constexpr (kEffects.has(Effect::roulette)) move(q.lossless);
-        for_lanes(which, [&](int i) { q.id[to++] = q.id[at + static_cast<std::size_t>(i)]; });
-        return to;
-    }
-    static void move_row(Mask which, detail::FloatRow& row, std::size_t at, std::size_t to) { Float::load(row + at).compress_store(which, row + to); }
-    static void move_row(Mask which, detail::IntRow& row, std::size_t at, std::size_t to) { Int32::load(row + at).compress_store(which, row + to); }
 
     /// What the rays of a pack meet.
     void trace_pack(std::size_t at, Mask active) {
@@ -214,9 +144,9 @@ private:
                     time, camera ? Coherence::coherent : Coherence::incoherent);
         Int32 geometry = as_int(UInt32::load(packet_.geometry));
         const Int32 primitive = as_int(UInt32::load(packet_.primitive));
-        if constexpr (kInstancing) resolve_instances(sent, geometry).store(instance_ + at);
-        geometry.store(geometry_ + at);
-        primitive.store(primitive_ + at);
+        if constexpr (kInstancing) resolve_instances(sent, geometry).store(met_.instance + at);
+        geometry.store(met_.geometry + at);
+        primitive.store(met_.primitive + at);
         if (!order_.pays()) prefetch_triangles(scene_, active & (geometry != Int32(-1)), geometry, primitive);
     }
 
@@ -246,9 +176,9 @@ private:
         geometry.store(geometries);
         primitive.store(primitives);
         for_lanes(active, [&](int i) {
-            geometry_[places[i]] = geometries[i];
-            primitive_[places[i]] = primitives[i];
-            if constexpr (kInstancing) instance_[places[i]] = instances[i];
+            met_.geometry[places[i]] = geometries[i];
+            met_.primitive[places[i]] = primitives[i];
+            if constexpr (kInstancing) met_.instance[places[i]] = instances[i];
         });
         if (!order_.pays()) prefetch_triangles(scene_, active & (geometry != Int32(-1)), geometry, primitive);
     }
@@ -259,11 +189,11 @@ private:
         const Vec3<Float> o = load(q.o, at), d = load(q.d, at);
         Vec3<Float> beta = load(q.beta, at);
         Int32::load(q.slot + at).store(slots_);
-        const Int32 geometry = Int32::load(geometry_ + at), primitive = Int32::load(primitive_ + at);
+        const Int32 geometry = Int32::load(met_.geometry + at), primitive = Int32::load(met_.primitive + at);
         Int32 instance(-1);
         Float time{};
         if constexpr (kInstancing)
-            if (!sorted_) instance = Int32::load(instance_ + at);  // scenes that are sorted have none
+            if (!sorted_) instance = Int32::load(met_.instance + at);  // scenes that are sorted have none
         if constexpr (kMotion) time = Float::load(q.time + at);
         const SurfacePack surface = surface_pack<kEffects>(scene_, hit, o, d, geometry, primitive, instance, time);
         const Vec3<Float> wo = -d;
@@ -379,10 +309,10 @@ private:
         geometry.store(g);
         for_lanes(active, [&](int i) {
             const std::size_t path = at + static_cast<std::size_t>(i);
-            const auto met = static_cast<std::uint32_t>(g[i]), which = met == Hit::kNone ? Hit::kNone : static_cast<std::uint32_t>(primitive_[path]);
+            const auto met = static_cast<std::uint32_t>(g[i]), which = met == Hit::kNone ? Hit::kNone : static_cast<std::uint32_t>(met_.primitive[path]);
             sums_.hash(slots_[i], (std::uint64_t{met} << 32) | which);
             if constexpr (kInstancing)
-                if (!sorted_ && instance_[path] != -1) sums_.hash(slots_[i], static_cast<std::uint32_t>(instance_[path]));
+                if (!sorted_ && met_.instance[path] != -1) sums_.hash(slots_[i], static_cast<std::uint32_t>(met_.instance[path]));
         });
     }
 
@@ -507,7 +437,7 @@ private:
     MirroredRays<kEffects, kGroup> mirrored_;
     const bool surfaces_shine_;
     RayPacket<kLanes> packet_{};
-    alignas(64) detail::IntRow geometry_{}, primitive_{}, instance_{};  // what the rays met
+    detail::Met met_{};
     alignas(4 * kLanes) IntLanes valid_{}, slots_{};
     PathSums sums_;
     std::size_t alive_ = 0;
