@@ -41,7 +41,7 @@ class BatchTracer final : public Tracer {
     static constexpr std::size_t kPack = static_cast<std::size_t>(kLanes);
 
     /// Paths whose rays are all traced before the first is shaded: what they met is on its way to the cache meanwhile.
-    static constexpr std::size_t kGroup = 8 * kPack;
+    static constexpr std::size_t kGroup = 16 * kPack;
 
 public:
     explicit BatchTracer(const TraceJob& job)
