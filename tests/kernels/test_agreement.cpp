@@ -142,3 +142,22 @@ TEST_CASE("batch and reference kernels have the same mean", "[kernels]") {
         CHECK(std::fabs(other_seeds.mean - reference.mean) <= reference.noise() + other_seeds.noise());
     }
 }
+
+// A hollow cube of perfect mirrors with a grey ball and a gap: paths stay for hundreds of bounces, each with its own count of those that lost nothing.
+TEST_CASE("both kernels count the bounces that lose nothing alike, while other paths leave", "[kernels]") {
+    SceneDescription d = empty_scene();
+    const std::uint32_t mirror = add_material(d, Conductor{}, true), grey = add_diffuse(d, 0.5f);
+    for (const Matrix& turn : {Matrix(1.0), rotated({1, 0, 0}, 90), rotated({1, 0, 0}, 180), rotated({1, 0, 0}, 270), rotated({0, 1, 0}, 90)})
+        add_shape(d, RectangleShape{}, turn * translated({0, 0, -1}), mirror);
+    add_shape(d, RectangleShape{}, rotated({0, 1, 0}, 270) * translated({0, 0, -1}) * scaled({0.95, 1, 1}), mirror);
+    add_shape(d, SphereShape{}, translated({0.3, -0.2, -0.4}) * scaled(0.1), grey);
+    d.environment = ConstantEnvironment{Rgb(1.0f), {}};
+    d.film.width = d.film.height = 16;
+    d.integrator.max_depth = -1;
+    const Ready ready(d);
+    const Traced reference = trace_all(ready, *family(ready.plan.effects, false).front(), kSpp, 3);
+    CHECK(reference.rays.closest > 100 * reference.radiance.size());
+    const Agreement a = compare(reference, trace_all(ready, *family(ready.plan.effects, true).front(), kSpp, 3));
+    CHECK(a.met_something_else <= a.paths / 1000);  // hundreds of chances each to pass an edge within rounding
+    CHECK(a.same_way_other_radiance == 0);
+}
